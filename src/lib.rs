@@ -1,0 +1,5 @@
+//! Morphological closing and opening of outlines without dilating and eroding.
+
+pub mod gcode;
+pub mod plane;
+pub mod units;

@@ -1,0 +1,95 @@
+//! Axis-parallel bounding boxes.
+
+use super::Point;
+
+/// An axis-parallel box; empty where `min` exceeds `max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower left corner.
+    pub min: Point,
+    /// Upper right corner.
+    pub max: Point,
+}
+
+impl Bounds {
+    /// The box that holds nothing: the neutral element of [`Bounds::union`].
+    pub const EMPTY: Bounds =
+        Bounds { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
+
+    /// The smallest box that holds `points`.
+    pub fn of_points(points: impl IntoIterator<Item = Point>) -> Bounds {
+        points.into_iter().fold(Bounds::EMPTY, Bounds::with_point)
+    }
+
+    /// This box grown to hold `p`.
+    #[inline]
+    pub fn with_point(self, p: Point) -> Bounds {
+        Bounds {
+            min: Point::new(self.min.x.min(p.x), self.min.y.min(p.y)),
+            max: Point::new(self.max.x.max(p.x), self.max.y.max(p.y)),
+        }
+    }
+
+    /// The smallest box that holds both.
+    #[inline]
+    pub fn union(self, other: Bounds) -> Bounds {
+        Bounds {
+            min: Point::new(self.min.x.min(other.min.x), self.min.y.min(other.min.y)),
+            max: Point::new(self.max.x.max(other.max.x), self.max.y.max(other.max.y)),
+        }
+    }
+
+    /// This box with every side moved outward by `margin`.
+    #[inline]
+    pub fn inflated(self, margin: f64) -> Bounds {
+        Bounds {
+            min: Point::new(self.min.x - margin, self.min.y - margin),
+            max: Point::new(self.max.x + margin, self.max.y + margin),
+        }
+    }
+
+    /// Whether the two boxes share a point, borders included.
+    #[inline]
+    pub fn overlaps(&self, other: &Bounds) -> bool {
+        self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
+    }
+
+    /// Whether `p` lies in the box, borders included.
+    #[inline]
+    pub fn contains(&self, p: Point) -> bool {
+        self.min.x <= p.x && p.x <= self.max.x && self.min.y <= p.y && p.y <= self.max.y
+    }
+
+    /// Squared distance from `p` to the nearest point of the box; 0 inside.
+    #[inline]
+    pub fn distance_squared(&self, p: Point) -> f64 {
+        let dx = (self.min.x - p.x).max(p.x - self.max.x).max(0.0);
+        let dy = (self.min.y - p.y).max(p.y - self.max.y).max(0.0);
+        dx * dx + dy * dy
+    }
+
+    /// Whether the box holds no point.
+    pub fn is_empty(&self) -> bool {
+        !(self.min.x <= self.max.x && self.min.y <= self.max.y)
+    }
+
+    /// Width, 0 for an empty box.
+    pub fn width(&self) -> f64 {
+        (self.max.x - self.min.x).max(0.0)
+    }
+
+    /// Height, 0 for an empty box.
+    pub fn height(&self) -> f64 {
+        (self.max.y - self.min.y).max(0.0)
+    }
+
+    /// Length of the diagonal, 0 for an empty box.
+    pub fn diagonal(&self) -> f64 {
+        self.width().hypot(self.height())
+    }
+
+    /// The middle of the box.
+    pub fn center(&self) -> Point {
+        nalgebra::center(&self.min, &self.max)
+    }
+}

@@ -1,0 +1,71 @@
+//! A binary tree of bounding boxes over elements that stand in the order of a chain.
+//!
+//! Neighbours along a chain are neighbours in the plane, so the order needs no sorting: building is one pass, and the
+//! boxes are nearly as tight as those of a sorted hierarchy.
+
+use super::{Bounds, Point};
+
+/// How many consecutive elements share a leaf: a balance of boxes kept against elements tested, by measurement.
+const LEAF: usize = 4;
+
+/// Boxes over `n` elements in chain order: level 0 holds the leaves, the last level one box.
+#[derive(Clone, Debug)]
+pub struct ChainTree {
+    levels: Vec<Vec<Bounds>>,
+    len: usize,
+}
+
+impl ChainTree {
+    /// The tree over `boxes`, one box an element.
+    pub fn new(boxes: &[Bounds]) -> ChainTree {
+        let union = |b: &[Bounds]| b.iter().copied().fold(Bounds::EMPTY, Bounds::union);
+        let mut levels = vec![boxes.chunks(LEAF).map(union).collect::<Vec<_>>()];
+        while let Some(below) = levels.last().filter(|l| l.len() > 1) {
+            let above = below.chunks(2).map(union).collect();
+            levels.push(above);
+        }
+        ChainTree { levels, len: boxes.len() }
+    }
+
+    /// Calls `visit` with every element whose leaf comes within `reach()` of `p`, nearer subtrees first.
+    ///
+    /// `reach` is asked anew before every descent, so that a search for the nearest element can shrink it, and a search
+    /// for any element can end itself by returning a negative number.
+    pub fn visit_near(&self, p: Point, mut reach: impl FnMut() -> f64, mut visit: impl FnMut(usize)) {
+        if self.len == 0 {
+            return;
+        }
+        // Depth: two children a level, at most one of them waiting.
+        let mut stack: Vec<(usize, usize, f64)> = Vec::with_capacity(2 * self.levels.len());
+        let top = self.levels.len() - 1;
+        stack.push((top, 0, self.levels[top][0].distance_squared(p)));
+        while let Some((level, index, distance_squared)) = stack.pop() {
+            let limit = reach();
+            if limit < 0.0 {
+                return;
+            }
+            if distance_squared > limit * limit {
+                continue;
+            }
+            if level == 0 {
+                (index * LEAF..((index + 1) * LEAF).min(self.len)).for_each(&mut visit);
+                continue;
+            }
+            let below = &self.levels[level - 1];
+            let (a, b) = (2 * index, 2 * index + 1);
+            let da = below[a].distance_squared(p);
+            if b < below.len() {
+                let db = below[b].distance_squared(p);
+                if da <= db {
+                    stack.push((level - 1, b, db));
+                    stack.push((level - 1, a, da));
+                } else {
+                    stack.push((level - 1, a, da));
+                    stack.push((level - 1, b, db));
+                }
+            } else {
+                stack.push((level - 1, a, da));
+            }
+        }
+    }
+}

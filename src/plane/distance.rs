@@ -1,0 +1,64 @@
+//! Distance from points to the boundary of a region.
+
+use super::{Bounds, ChainTree, Nearest, Point, Region, Segment};
+
+/// The boundary of a region, arranged for many distance queries.
+#[derive(Clone, Debug)]
+pub struct BoundaryIndex {
+    segments: Vec<Segment>,
+    tree: ChainTree,
+}
+
+impl BoundaryIndex {
+    /// The index of all boundary elements of `region`.
+    pub fn new(region: &Region) -> BoundaryIndex {
+        BoundaryIndex::of_segments(region.segments().collect())
+    }
+
+    /// The index of any boundary elements; best where consecutive ones are neighbours.
+    pub fn of_segments(segments: Vec<Segment>) -> BoundaryIndex {
+        let boxes: Vec<Bounds> = segments.iter().map(Segment::bounds).collect();
+        BoundaryIndex { tree: ChainTree::new(&boxes), segments }
+    }
+
+    /// The elements, numbered as in the queries.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// The nearest element to `p` and its nearest point; `None` without elements.
+    pub fn nearest(&self, p: Point) -> Option<(usize, Nearest)> {
+        let best = std::cell::Cell::new(None::<(usize, Nearest)>);
+        self.tree.visit_near(
+            p,
+            || best.get().map_or(f64::INFINITY, |(_, n)| n.distance),
+            |i| {
+                let n = self.segments[i].nearest(p);
+                if best.get().is_none_or(|(_, b)| n.distance < b.distance) {
+                    best.set(Some((i, n)));
+                }
+            },
+        );
+        best.get()
+    }
+
+    /// Distance from `p` to the boundary; infinite without elements.
+    pub fn distance(&self, p: Point) -> f64 {
+        self.nearest(p).map_or(f64::INFINITY, |(_, n)| n.distance)
+    }
+
+    /// Whether some element lies nearer to `p` than `limit`.
+    pub fn is_nearer(&self, p: Point, limit: f64) -> bool {
+        let found = std::cell::Cell::new(false);
+        self.tree.visit_near(
+            p,
+            || if found.get() { -1.0 } else { limit },
+            |i| {
+                if !found.get() && self.segments[i].nearest(p).distance < limit {
+                    found.set(true);
+                }
+            },
+        );
+        found.get()
+    }
+}

@@ -1,0 +1,21 @@
+//! Points, arcs, rings and regions of the plane.
+//!
+//! Everything here is exact geometry on straight links and circular arcs, in `f64`. Lengths carry no unit: whoever
+//! reads a drawing decides (see [`crate::units`]). Solid material lies on the left of every link, so outer rings run
+//! counterclockwise and holes clockwise, with the y axis pointing up.
+
+mod bounds;
+mod chain_tree;
+mod distance;
+mod point;
+mod region;
+mod ring;
+mod segment;
+
+pub use bounds::Bounds;
+pub use chain_tree::ChainTree;
+pub use distance::BoundaryIndex;
+pub use point::{Point, Vector, left_normal, right_normal, turn_angle};
+pub use region::{Region, TopologyCount};
+pub use ring::{Joint, Ring, Vertex, VertexId};
+pub use segment::{Arc, Link, Nearest, Segment, Turn};
