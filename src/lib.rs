@@ -2,4 +2,5 @@
 
 pub mod gcode;
 pub mod plane;
+pub mod rolling;
 pub mod units;

@@ -68,4 +68,26 @@ impl ChainTree {
             }
         }
     }
+
+    /// Calls `visit` with every element whose leaf and all boxes above it are `wanted`.
+    pub fn visit_where(&self, wanted: impl Fn(&Bounds) -> bool, mut visit: impl FnMut(usize)) {
+        if self.len == 0 {
+            return;
+        }
+        let mut stack = vec![(self.levels.len() - 1, 0)];
+        while let Some((level, index)) = stack.pop() {
+            if !wanted(&self.levels[level][index]) {
+                continue;
+            }
+            if level == 0 {
+                (index * LEAF..((index + 1) * LEAF).min(self.len)).for_each(&mut visit);
+                continue;
+            }
+            for child in [2 * index, 2 * index + 1] {
+                if child < self.levels[level - 1].len() {
+                    stack.push((level - 1, child));
+                }
+            }
+        }
+    }
 }

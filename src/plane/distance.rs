@@ -61,4 +61,13 @@ impl BoundaryIndex {
         );
         found.get()
     }
+
+    /// How often the boundary runs counterclockwise around `p`: positive in the solid. Unspecified on the boundary.
+    pub fn winding_number(&self, p: Point) -> i32 {
+        let mut winding = 0;
+        // What lies wholly above, below or left of the ray from p to the right does not count.
+        let on_ray = |b: &Bounds| b.min.y <= p.y && p.y <= b.max.y && b.max.x >= p.x;
+        self.tree.visit_where(on_ray, |i| winding += self.segments[i].ray_crossings(p));
+        winding
+    }
 }

@@ -88,6 +88,14 @@ impl Link {
             Link::Arc(arc) => Link::Arc(Arc { turn: arc.turn.opposite(), ..arc }),
         }
     }
+
+    /// The same link moved by `by`.
+    pub fn translated(self, by: Vector) -> Link {
+        match self {
+            Link::Line => Link::Line,
+            Link::Arc(arc) => Link::Arc(Arc { center: arc.center + by, ..arc }),
+        }
+    }
 }
 
 /// A boundary element with its ends.
@@ -241,11 +249,7 @@ impl Segment {
 impl Segment {
     /// The element moved by `by`.
     pub fn translated(&self, by: Vector) -> Segment {
-        let link = match self.link {
-            Link::Line => Link::Line,
-            Link::Arc(arc) => Link::Arc(Arc { center: arc.center + by, ..arc }),
-        };
-        Segment { start: self.start + by, end: self.end + by, link }
+        Segment { start: self.start + by, end: self.end + by, link: self.link.translated(by) }
     }
 
     /// Signed crossings of the element with the ray from `p` towards +x: +1 upward, -1 downward.
