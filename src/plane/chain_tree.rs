@@ -41,6 +41,7 @@ impl ChainTree {
         stack.push((top, 0, self.levels[top][0].distance_squared(p)));
         while let Some((level, index, distance_squared)) = stack.pop() {
             let limit = reach();
+            // Nothing is nearer than a negative distance.
             if limit < 0.0 {
                 return;
             }

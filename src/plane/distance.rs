@@ -54,7 +54,7 @@ impl BoundaryIndex {
             p,
             || if found.get() { -1.0 } else { limit },
             |i| {
-                if !found.get() && self.segments[i].nearest(p).distance < limit {
+                if !found.get() && self.segments[i].is_nearer(p, limit) {
                     found.set(true);
                 }
             },

@@ -217,6 +217,27 @@ impl Segment {
         }
     }
 
+    /// Whether some point of the element lies nearer to `p` than `limit`.
+    #[inline]
+    pub fn is_nearer(&self, p: Point, limit: f64) -> bool {
+        match self.link {
+            Link::Line => {
+                let (d, w) = (self.end - self.start, p - self.start);
+                let (along, length_squared) = (w.dot(&d), d.norm_squared());
+                let nearest = if along <= 0.0 {
+                    w.norm_squared()
+                } else if along >= length_squared {
+                    (p - self.end).norm_squared()
+                } else {
+                    let across = d.perp(&w);
+                    across * across / length_squared
+                };
+                nearest < limit * limit && limit > 0.0
+            }
+            Link::Arc(_) => self.nearest(p).distance < limit,
+        }
+    }
+
     /// Twice the signed area between the element and the origin, counterclockwise positive.
     pub fn doubled_area(&self) -> f64 {
         let chord = self.start.coords.perp(&self.end.coords);

@@ -5,7 +5,7 @@
 //! piece the side of that end decides, by a sign that the next piece of the chain computes alike, so that a crossing
 //! near a joint belongs to exactly one of the two.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::carrier::{circle_circle, line_circle};
 use super::locus::{Locus, Piece};
@@ -190,6 +190,9 @@ fn parameter(p: &Piece, q: &Piece, x: Point, near: f64) -> Option<f64> {
         let length = d.norm();
         ((x - p.start).dot(&d) / length, length, 1.0)
     } else {
+        if is_far_outside(p, x, near) {
+            return None;
+        }
         let (u, v) = (p.start - p.center, x - p.center);
         let mut angle = (p.bend * u.perp(&v)).atan2(u.dot(&v));
         if angle < 0.0 {
@@ -213,4 +216,12 @@ fn parameter(p: &Piece, q: &Piece, x: Point, near: f64) -> Option<f64> {
     let before = from_start > near || (side(q, p.start) >= 0.0) != grows;
     let after = to_end > near || (side(q, p.end) >= 0.0) == grows;
     (before && after).then(|| at.clamp(0.0, extent))
+}
+
+/// Whether `x`, a point of the circle of an arc of at most half a turn, lies clearly beyond one of its ends: told by
+/// signs, without an angle.
+fn is_far_outside(p: &Piece, x: Point, near: f64) -> bool {
+    let v = x - p.center;
+    let slack = -near * p.radius;
+    p.sweep <= PI && (p.bend * (p.start - p.center).perp(&v) < slack || p.bend * v.perp(&(p.end - p.center)) < slack)
 }

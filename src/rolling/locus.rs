@@ -110,22 +110,22 @@ pub(super) struct Locus {
 }
 
 impl Locus {
-    /// The locus of a disk of radius `r` on the right side of all rings of `region`.
-    pub(super) fn new(region: &Region, r: f64) -> Locus {
+    /// The locus of a disk of radius `r` on the right side of all rings of `region`; lengths below `noise` mean nothing.
+    pub(super) fn new(region: &Region, r: f64, noise: f64) -> Locus {
         let mut locus = Locus { pieces: Vec::with_capacity(2 * region.vertex_count()), rings: Vec::new() };
         for (index, ring) in region.rings.iter().enumerate() {
             // The golden ratio keeps all rings apart.
             let place = (index as f64 * 0.618_033_988_749_895).fract();
-            locus.add_ring(ring, index as u32, r * (1.0 - RING_SPREAD * place));
+            locus.add_ring(ring, index as u32, r * (1.0 - RING_SPREAD * place), TINY * r + noise);
         }
         locus
     }
 
-    fn add_ring(&mut self, ring: &Ring, index: u32, r: f64) {
+    fn add_ring(&mut self, ring: &Ring, index: u32, r: f64, tiny: f64) {
         let first = self.pieces.len();
         let n = ring.len();
         if n >= 2 {
-            let mut path = Path { pieces: &mut self.pieces, ring: index, tiny: TINY * r, last: None, rough: false };
+            let mut path = Path { pieces: &mut self.pieces, ring: index, tiny, last: None, rough: false };
             let mut link = ring.segment(0);
             let mut passage = Passage::new(&ring.segment(n - 1), &link, ring.vertices[0].joint, r);
             for i in 0..n {

@@ -29,6 +29,9 @@ const ATTEMPTS: u32 = 6;
 /// A sample of the locus nearer to the input than the disk by more than this, relative to the radius, lies in D.
 const INSIDE: f64 = 3e-9;
 
+/// How many units of the coordinates' last place a distance may be off.
+pub(super) const ROUNDING_STEPS: f64 = 32.0;
+
 /// A stretch of the locus shorter than this, relative to the radius, is too near to its crossings for its distance to
 /// contradict anything.
 const TELLING: f64 = 1e-4;
@@ -55,15 +58,14 @@ pub(super) struct Merged {
 }
 
 /// The morphological closing of `raw` by a disk of radius `r`. `prepared` is `raw` or any region between it and its
-/// closing.
-pub(super) fn merge(prepared: &Region, raw: &Region, r: f64) -> Merged {
-    let index = BoundaryIndex::new(raw);
-    let reach = raw.bounds().diagonal();
+/// closing. Coordinates are known to `resolution`.
+pub(super) fn merge(prepared: &Region, raw: &Region, r: f64, resolution: f64) -> Merged {
+    let solid = Solid::new(raw);
     let mut best: Option<Merged> = None;
     for attempt in 0..ATTEMPTS {
         // Incommensurable steps: no coincidence survives two attempts.
         let shrink = SHRINK * (1.0 + 0.381_966 * f64::from(attempt));
-        let merged = Attempt::new(prepared, &index, r, r * (1.0 - shrink), reach).run();
+        let merged = Attempt::new(prepared, &solid, r, r * (1.0 - shrink), resolution).run();
         let settled = merged.contradictions == 0;
         if best.as_ref().is_none_or(|b| merged.contradictions < b.contradictions) {
             best = Some(merged);
@@ -77,9 +79,9 @@ pub(super) fn merge(prepared: &Region, raw: &Region, r: f64) -> Merged {
 
 /// Where the result of a scan along the curves may differ from the morphological closing of `raw`: crossings of the
 /// locus, and a point of every ring whose locus lies in D as a whole.
-pub(super) fn differences(scanned: &Region, raw: &Region, r: f64) -> Vec<Point> {
-    let index = BoundaryIndex::new(raw);
-    let attempt = Attempt::new(scanned, &index, r, r * (1.0 - SHRINK), raw.bounds().diagonal());
+pub(super) fn differences(scanned: &Region, raw: &Region, r: f64, resolution: f64) -> Vec<Point> {
+    let solid = Solid::new(raw);
+    let mut attempt = Attempt::new(scanned, &solid, r, r * (1.0 - SHRINK), resolution);
     let mut places: Vec<Point> = attempt.events.iter().step_by(2).map(|e| e.point).collect();
     for (ring, verdict) in scanned.rings.iter().zip(attempt.ring_verdicts()) {
         if verdict == Some(Verdict::Covered) {
@@ -98,9 +100,28 @@ enum Verdict {
     Covered,
 }
 
+/// The input, for questions of distance.
+struct Solid {
+    index: BoundaryIndex,
+    /// 1 where the plane far away is solid, as it is when an opening is computed as the closing of the empty part.
+    far_winding: i32,
+}
+
+impl Solid {
+    fn new(raw: &Region) -> Solid {
+        Solid { index: BoundaryIndex::new(raw), far_winding: i32::from(raw.area() < 0.0) }
+    }
+
+    /// Whether the disk of radius `limit` about `p` is free of solid.
+    fn leaves_free(&self, p: Point, limit: f64) -> bool {
+        // Where boundaries touch, the locus of one can run far from both through the solid of the other.
+        !self.index.is_nearer(p, limit) && self.index.winding_number(p) + self.far_winding <= 0
+    }
+}
+
 struct Attempt<'a> {
     region: &'a Region,
-    index: &'a BoundaryIndex,
+    solid: &'a Solid,
     r: f64,
     /// Below this distance to the input a sample lies in D.
     limit: f64,
@@ -108,31 +129,17 @@ struct Attempt<'a> {
     events: Vec<Event>,
     itinerary: Itinerary,
     centers: Vec<Option<Point>>,
-    /// 1 where the plane far away is solid, as it is when an opening is computed as the closing of the empty part.
-    far_winding: i32,
     contradictions: usize,
 }
 
 impl<'a> Attempt<'a> {
-    fn new(region: &'a Region, index: &'a BoundaryIndex, r: f64, locus_radius: f64, reach: f64) -> Attempt<'a> {
-        let locus = Locus::new(region, locus_radius);
+    fn new(region: &'a Region, solid: &'a Solid, r: f64, locus_radius: f64, resolution: f64) -> Attempt<'a> {
+        let locus = Locus::new(region, locus_radius, ROUNDING_STEPS * resolution);
         let events = crossings(&locus, r);
         let itinerary = Itinerary::new(&events, |p| locus.pieces[p as usize].ring);
-        // Distances carry the rounding of coordinates as large as the drawing.
-        let limit = locus_radius - (INSIDE + TINY + RING_SPREAD) * r - 16.0 * f64::EPSILON * reach;
+        let limit = locus_radius - (INSIDE + TINY + RING_SPREAD) * r - 2.0 * ROUNDING_STEPS * resolution;
         let centers = vec![None; events.len()];
-        Attempt {
-            region,
-            index,
-            r,
-            limit,
-            locus,
-            events,
-            itinerary,
-            centers,
-            far_winding: i32::from(region.area() < 0.0),
-            contradictions: 0,
-        }
+        Attempt { region, solid, r, limit, locus, events, itinerary, centers, contradictions: 0 }
     }
 
     fn run(mut self) -> Merged {
@@ -178,12 +185,7 @@ impl<'a> Attempt<'a> {
     }
 
     fn verdict(&self, p: Point) -> Verdict {
-        // Where boundaries touch, the locus of one can run far from both through the solid of the other.
-        if self.index.is_nearer(p, self.limit) || self.index.winding_number(p) + self.far_winding > 0 {
-            Verdict::Covered
-        } else {
-            Verdict::Free
-        }
+        if self.solid.leaves_free(p, self.limit) { Verdict::Free } else { Verdict::Covered }
     }
 
     /// A point well inside the stretch from `e` to the next event, and the length it stands for.
@@ -232,26 +234,29 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// What becomes of each ring as a whole: nothing is known of one whose locus has crossings.
-    fn ring_verdicts(&self) -> Vec<Option<Verdict>> {
+    /// What becomes of each ring as a whole: nothing is known of one whose locus has crossings. Samples of one ring
+    /// that disagree are a contradiction.
+    fn ring_verdicts(&mut self) -> Vec<Option<Verdict>> {
         let mut crossed = vec![false; self.region.rings.len()];
         for e in &self.events {
             crossed[self.locus.pieces[e.piece as usize].ring as usize] = true;
         }
-        let free = |range: &std::ops::Range<u32>| {
-            let step = (range.len().div_ceil(SAMPLES)).max(1);
-            range.clone().step_by(step).all(|k| {
-                let piece = &self.locus.pieces[k as usize];
-                self.verdict(piece.at(0.5 * piece.extent())) == Verdict::Free
-            })
-        };
-        let verdict = |range| if free(range) { Verdict::Free } else { Verdict::Covered };
-        self.locus.rings.iter().zip(crossed).map(|(range, crossed)| (!crossed).then(|| verdict(range))).collect()
+        let mut verdicts = vec![None; crossed.len()];
+        for (k, range) in self.locus.rings.iter().enumerate().filter(|(k, _)| !crossed[*k]) {
+            let step = range.len().div_ceil(SAMPLES).max(1);
+            let samples = range.clone().step_by(step).map(|k| &self.locus.pieces[k as usize]);
+            let free = samples.clone().filter(|p| self.verdict(p.at(0.5 * p.extent())) == Verdict::Free).count();
+            let covered = samples.count() - free;
+            self.contradictions += free.min(covered);
+            verdicts[k] = Some(if free >= covered { Verdict::Free } else { Verdict::Covered });
+        }
+        verdicts
     }
 
     /// Rings whose locus crosses nothing and is free: they stay as they are.
-    fn rings_without_crossings(&self) -> Vec<Vec<Knot>> {
-        let whole = self.region.rings.iter().zip(self.ring_verdicts()).zip(&self.locus.rings);
+    fn rings_without_crossings(&mut self) -> Vec<Vec<Knot>> {
+        let verdicts = self.ring_verdicts();
+        let whole = self.region.rings.iter().zip(verdicts).zip(&self.locus.rings);
         whole
             .filter(|((_, verdict), range)| *verdict == Some(Verdict::Free) && !range.is_empty())
             .map(|((ring, _), _)| ring.vertices.iter().map(|&vertex| Knot { vertex, born: None }).collect())

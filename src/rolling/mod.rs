@@ -17,7 +17,7 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{Link, Point, Region, Vector};
+use crate::plane::{Bounds, Link, Point, Region, Vector};
 use crate::units::Radius;
 
 /// What closing means where components come near each other.
@@ -47,12 +47,18 @@ pub fn close(region: &Region, radius: Radius, topology: Topology) -> Outcome {
     let r = radius.get();
     // Far from the origin coordinates have few digits left for a small radius. The shift is exact both ways for every
     // vertex that stays.
-    let shift = exact_shift(region);
-    let local = region.translated(-shift);
-    let mut outcome = match topology {
-        Topology::Merge => close_merged(&local, r),
-        Topology::Keep => close_along(&local, r),
+    let bounds = region.bounds();
+    let shift = exact_shift(&bounds);
+    let farthest = bounds.min.coords.abs().max().max(bounds.max.coords.abs().max());
+    let resolution = if farthest.is_finite() { f64::EPSILON * farthest } else { 0.0 };
+    let run = |region: &Region| match topology {
+        Topology::Merge => close_merged(region, r, resolution),
+        Topology::Keep => close_along(region, r, resolution),
     };
+    if shift == Vector::zeros() {
+        return run(region);
+    }
+    let mut outcome = run(&region.translated(-shift));
     outcome.region = outcome.region.translated(shift);
     outcome.differences.iter_mut().for_each(|p| *p += shift);
     outcome
@@ -64,21 +70,21 @@ pub fn open(region: &Region, radius: Radius, topology: Topology) -> Outcome {
     Outcome { region: outcome.region.reversed(), ..outcome }
 }
 
-fn close_merged(region: &Region, r: f64) -> Outcome {
-    let prepared = scan_rings(region, r, scan::Mode::Safe);
-    let merged = merge::merge(&prepared, region, r);
+fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
+    let prepared = scan_rings(region, r, scan::Mode::Safe, resolution);
+    let merged = merge::merge(&prepared, region, r, resolution);
     Outcome { region: merged.region, differences: merged.bridges, contradictions: merged.contradictions }
 }
 
-fn close_along(region: &Region, r: f64) -> Outcome {
-    let scanned = scan_rings(region, r, scan::Mode::Geodesic);
-    let differences = merge::differences(&scanned, region, r);
+fn close_along(region: &Region, r: f64, resolution: f64) -> Outcome {
+    let scanned = scan_rings(region, r, scan::Mode::Geodesic, resolution);
+    let differences = merge::differences(&scanned, region, r, resolution);
     Outcome { region: scanned, differences, contradictions: 0 }
 }
 
-fn scan_rings(region: &Region, r: f64, mode: scan::Mode) -> Region {
+fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> Region {
     let rings = region.rings.iter().filter_map(|ring| {
-        let scanned = scan::scan(ring, r, mode).ring;
+        let scanned = scan::scan(ring, r, mode, resolution).ring;
         if !scanned.is_empty() {
             Some(scanned)
         } else {
@@ -90,8 +96,7 @@ fn scan_rings(region: &Region, r: f64, mode: scan::Mode) -> Region {
 }
 
 /// A displacement that brings the region near the origin without rounding any coordinate, or zero.
-fn exact_shift(region: &Region) -> Vector {
-    let bounds = region.bounds();
+fn exact_shift(bounds: &Bounds) -> Vector {
     if bounds.is_empty() {
         return Vector::zeros();
     }

@@ -16,7 +16,7 @@ use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
 use super::carrier::{center_of_chord, circle_circle, line_circle};
-use super::merge::SHRINK;
+use super::merge::{ROUNDING_STEPS, SHRINK};
 use super::track::{Contact, Track};
 use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex, right_normal, turn_angle};
 
@@ -62,9 +62,9 @@ pub(super) struct Scan {
     pub(super) refused: usize,
 }
 
-/// Rolls a disk of radius `r` along the right side of `ring`.
-pub(super) fn scan(ring: &Ring, r: f64, mode: Mode) -> Scan {
-    let mut roller = Roller::new(ring, r, mode);
+/// Rolls a disk of radius `r` along the right side of `ring`, whose coordinates are known to `resolution`.
+pub(super) fn scan(ring: &Ring, r: f64, mode: Mode, resolution: f64) -> Scan {
+    let mut roller = Roller::new(ring, r, mode, resolution);
     roller.run();
     roller.finish()
 }
@@ -97,6 +97,8 @@ struct Roller<'a> {
     input: &'a Ring,
     r: f64,
     mode: Mode,
+    /// [`MIN_EXCESS`], or what the rounding of coordinates does to the direction of an arc of the disk.
+    min_excess: f64,
     nodes: Vec<Node>,
     queue: VecDeque<u32>,
     alive: usize,
@@ -130,7 +132,7 @@ enum Meets {
 }
 
 impl<'a> Roller<'a> {
-    fn new(input: &'a Ring, r: f64, mode: Mode) -> Roller<'a> {
+    fn new(input: &'a Ring, r: f64, mode: Mode, resolution: f64) -> Roller<'a> {
         let n = input.len();
         let mut nodes: Vec<Node> = Vec::with_capacity(n + n / 4 + 16);
         for (i, v) in input.vertices.iter().enumerate() {
@@ -149,7 +151,8 @@ impl<'a> Roller<'a> {
                 queued: false,
             });
         }
-        Roller { input, r, mode, nodes, queue: VecDeque::new(), alive: n, head: 0, refused: 0 }
+        let min_excess = MIN_EXCESS + ROUNDING_STEPS * resolution / r;
+        Roller { input, r, mode, min_excess, nodes, queue: VecDeque::new(), alive: n, head: 0, refused: 0 }
     }
 
     fn node(&self, i: u32) -> &Node {
@@ -224,12 +227,12 @@ impl<'a> Roller<'a> {
                 (Link::Line, Link::Line) => (incoming.end - incoming.start, outgoing.end - outgoing.start),
                 _ => (incoming.end_tangent(), outgoing.start_tangent()),
             };
-            let cross = u.perp(&v);
-            if cross < 0.0 || (cross == 0.0 && u.dot(&v) <= 0.0) {
-                let excess = -turn_angle(u, v);
+            // Sine and cosine times the lengths: most vertices need no angle.
+            let (cross, dot) = (u.perp(&v), u.dot(&v));
+            if cross < 0.0 && (dot < 0.0 || -cross > self.min_excess * dot) {
                 let smooth = self.input.vertices[i].joint == Joint::Smooth
-                    && follows_samples(excess, incoming.length(), outgoing.length(), self.r);
-                if excess > MIN_EXCESS && !smooth {
+                    && follows_samples((-cross).atan2(dot), incoming.length(), outgoing.length(), self.r);
+                if !smooth {
                     self.enqueue(i as u32);
                 }
             }
@@ -316,7 +319,7 @@ impl<'a> Roller<'a> {
             _ => {}
         }
         self.node_mut(b).excess = Some(excess);
-        if excess <= MIN_EXCESS {
+        if excess <= self.min_excess {
             return;
         }
         let step = self.decide(a, b, c, excess);
@@ -353,7 +356,7 @@ impl<'a> Roller<'a> {
             (false, false) => {
                 let (left, right) = (self.track(a), self.track(b));
                 if left.is_straight() && right.is_straight() {
-                    self.straight_corner(a, b, c, excess, &left, &right)
+                    self.straight_corner([a, b, c], excess, &left, &right)
                 } else {
                     self.curved_corner(a, b, c, &left, &right)
                 }
@@ -386,11 +389,11 @@ impl<'a> Roller<'a> {
     }
 
     /// Two straight links: the disk touches both at the same distance from the corner.
-    fn straight_corner(&self, a: u32, b: u32, c: u32, excess: f64, left: &Track, right: &Track) -> Step {
+    fn straight_corner(&self, [a, b, c]: [u32; 3], excess: f64, left: &Track, right: &Track) -> Step {
         let min_link = MIN_LINK * self.r;
-        let reach = if excess > PI - MIN_LINK { f64::INFINITY } else { self.r * (0.5 * excess).tan() };
         let corner = self.node(b).point;
         let (u, v) = (left.tangent_at(corner), right.tangent_at(corner));
+        let reach = if excess > PI - MIN_LINK { f64::INFINITY } else { self.r * half_turn_tangent(u, v) };
         let shorter = left.length.min(right.length);
         if reach < shorter - min_link {
             Step::Cut { start: corner - u * reach, end: corner + v * reach }
@@ -425,14 +428,15 @@ impl<'a> Roller<'a> {
         let (r, min_link) = (self.r, MIN_LINK * self.r);
         let (first, second): (Contact, Contact) = if left.is_straight() && right.is_straight() {
             let (u, w) = (left.tangent_at(left.start), right.tangent_at(right.start));
-            let sine = u.perp(&w);
-            let turn = -turn_angle(u, w);
-            if !(turn > MIN_EXCESS && turn < PI - MIN_LINK) {
+            let (sine, cosine) = (u.perp(&w), u.dot(&w));
+            // A right turn, neither straight on nor straight back.
+            let angle_known = if cosine > 0.0 { MIN_EXCESS } else { MIN_LINK };
+            if sine > -angle_known {
                 return None;
             }
             let along = (right.start - left.start).perp(&w) / sine;
             let apex = left.start + u * along;
-            let reach = r * (0.5 * turn).tan();
+            let reach = r * half_turn_tangent(u, w);
             let (t, s) = (along - reach, (apex - right.start).dot(&w) + reach);
             (Contact { at: t, point: left.start + u * t }, Contact { at: s, point: right.start + w * s.max(0.0) })
         } else {
@@ -632,6 +636,11 @@ impl<'a> Roller<'a> {
         }
         Scan { ring: Ring { vertices }, refused: self.refused }
     }
+}
+
+/// tan(e/2) for the right turn e from one unit vector to another: sin e / (1 + cos e).
+fn half_turn_tangent(u: Vector, v: Vector) -> f64 {
+    -u.perp(&v) / (1.0 + u.dot(&v))
 }
 
 /// Whether a disk of radius `r` follows a concave curve whose chords of lengths `l1` and `l2` turn by `excess` at a
