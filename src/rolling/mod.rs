@@ -71,20 +71,27 @@ pub fn open(region: &Region, radius: Radius, topology: Topology) -> Outcome {
 }
 
 fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
-    let prepared = scan_rings(region, r, scan::Mode::Safe, resolution);
+    // What an unfinished scan leaves undone the merge does.
+    let (prepared, _) = scan_rings(region, r, scan::Mode::Safe, resolution);
     let merged = merge::merge(&prepared, region, r, resolution);
     Outcome { region: merged.region, differences: merged.bridges, contradictions: merged.contradictions }
 }
 
 fn close_along(region: &Region, r: f64, resolution: f64) -> Outcome {
-    let scanned = scan_rings(region, r, scan::Mode::Geodesic, resolution);
-    let differences = merge::differences(&scanned, region, r, resolution);
+    let (scanned, unfinished) = scan_rings(region, r, scan::Mode::Geodesic, resolution);
+    let mut differences = merge::differences(&scanned, region, r, resolution);
+    differences.extend(unfinished);
     Outcome { region: scanned, differences, contradictions: 0 }
 }
 
-fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> Region {
+/// The scanned rings, and a point of every ring whose scan did not come to its end.
+fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> (Region, Vec<Point>) {
+    let mut unfinished = vec![];
     let rings = region.rings.iter().filter_map(|ring| {
-        let scanned = scan::scan(ring, r, mode, resolution).ring;
+        let scan::Scan { ring: scanned, finished } = scan::scan(ring, r, mode, resolution);
+        if !finished {
+            unfinished.extend(ring.vertices.first().map(|v| v.point));
+        }
         if !scanned.is_empty() {
             Some(scanned)
         } else {
@@ -92,7 +99,7 @@ fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> Reg
             (ring.area() > 0.0).then(|| ring.clone())
         }
     });
-    Region::new(rings.collect())
+    (Region::new(rings.collect()), unfinished)
 }
 
 /// A displacement that brings the region near the origin without rounding any coordinate, or zero.

@@ -5,8 +5,8 @@
 //! can only raise the excess of its neighbours. Every operation moves the boundary outward, so the end state is a least
 //! fixed point and does not depend on the order.
 //!
-//! [`Mode::Safe`] refuses every operation that could fill more than the morphological closing does and counts the
-//! refusals; what it leaves undone the merge finishes. [`Mode::Geodesic`] measures distance along the curve, as the
+//! [`Mode::Safe`] refuses every operation that could fill more than the morphological closing does; what it leaves
+//! undone the merge finishes. [`Mode::Geodesic`] measures distance along the curve, as the
 //! flow of the paper does (eq. 7): its end state is the limit of that flow.
 //!
 //! Tolerances, all relative to the radius: [`MIN_LINK`] along the boundary, [`MIN_EXCESS`] in radians,
@@ -58,8 +58,8 @@ pub(super) enum Mode {
 pub(super) struct Scan {
     /// The ring with its new arcs; empty where the disk fits nowhere in a hole.
     pub(super) ring: Ring,
-    /// Operations that safety forbade, or that had no solution.
-    pub(super) refused: usize,
+    /// Whether the scan came to its end; operations left undone to be safe do not count.
+    pub(super) finished: bool,
 }
 
 /// Rolls a disk of radius `r` along the right side of `ring`, whose coordinates are known to `resolution`.
@@ -103,7 +103,7 @@ struct Roller<'a> {
     queue: VecDeque<u32>,
     alive: usize,
     head: u32,
-    refused: usize,
+    exhausted: bool,
 }
 
 /// What to do at a node, decided before anything is changed.
@@ -152,7 +152,7 @@ impl<'a> Roller<'a> {
             });
         }
         let min_excess = MIN_EXCESS + ROUNDING_STEPS * resolution / r;
-        Roller { input, r, mode, min_excess, nodes, queue: VecDeque::new(), alive: n, head: 0, refused: 0 }
+        Roller { input, r, mode, min_excess, nodes, queue: VecDeque::new(), alive: n, head: 0, exhausted: false }
     }
 
     fn node(&self, i: u32) -> &Node {
@@ -184,7 +184,7 @@ impl<'a> Roller<'a> {
                 return;
             }
             if budget == 0 {
-                self.refused += 1;
+                self.exhausted = true;
                 return;
             }
             budget -= 1;
@@ -313,7 +313,6 @@ impl<'a> Roller<'a> {
             Mode::Geodesic if excess < before - WRAPPED => excess += TAU,
             Mode::Safe if excess < before - WRAPPED || excess > SAFE_EXCESS => {
                 self.node_mut(b).excess = Some(excess);
-                self.refused += 1;
                 return;
             }
             _ => {}
@@ -546,7 +545,6 @@ impl<'a> Roller<'a> {
     fn apply(&mut self, step: Step, a: u32, b: u32, c: u32) {
         match step {
             Step::Refuse => {
-                self.refused += 1;
                 if self.mode == Mode::Geodesic {
                     // The neighbour is the one that has to give way first.
                     let neighbour = if self.is_rolling(a) { a } else { c };
@@ -634,7 +632,7 @@ impl<'a> Roller<'a> {
                 }
             }
         }
-        Scan { ring: Ring { vertices }, refused: self.refused }
+        Scan { ring: Ring { vertices }, finished: !self.exhausted }
     }
 }
 
