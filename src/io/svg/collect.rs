@@ -58,6 +58,7 @@ pub(super) struct Collector<'a, 'input> {
     placements: HashMap<NodeId, Rc<Vec<Affine>>>,
     /// The exact maps of elements that can have a clip path.
     clipped: Option<Rc<Vec<Affine>>>,
+    reusable: Option<Rc<Vec<Node<'a, 'input>>>>,
     elements: HashMap<NodeId, u32>,
     warned: HashSet<(NodeId, std::mem::Discriminant<WarningKind>)>,
 }
@@ -90,6 +91,7 @@ impl<'a, 'input> Collector<'a, 'input> {
             shapes: HashMap::new(),
             placements: HashMap::new(),
             clipped: None,
+            reusable: None,
             elements: HashMap::new(),
             warned: HashSet::new(),
         }
@@ -174,11 +176,8 @@ impl<'a, 'input> Collector<'a, 'input> {
             }
             return Ok(());
         }
-        if path.id().is_empty() {
-            return self.nameless(path, context, items);
-        }
         self.collection.seen.insert(path.id().to_owned());
-        let Some(located) = self.locate(path, &context.rough) else { return Ok(()) };
+        let Some(located) = self.locate(path, &context.rough) else { return self.nameless(path, context, items) };
         let node = located.node;
         if !path.is_visible() {
             let painted = path.fill().is_some() || path.stroke().is_some();
@@ -273,7 +272,12 @@ impl<'a, 'input> Collector<'a, 'input> {
 
     fn text(&mut self, text: &usvg::Text, context: Context, items: &mut Vec<Item>) -> Result<(), ReadError> {
         self.collection.seen.insert(text.id().to_owned());
-        let Some(node) = self.source.elements(text.id()).next() else { return Ok(()) };
+        let source = self.source;
+        let named = source.elements(text.id()).next();
+        // Under a `use` without its name: the text that stands there.
+        let texts = || source.document.descendants().filter(|n| n.tag_name().name() == "text");
+        let node = named.or_else(|| texts().find(|n| best(&self.placements(*n), &context.rough).is_some()));
+        let Some(node) = node.or_else(|| texts().next()) else { return Ok(()) };
         let before = items.len();
         let exact = best(&self.placements(node), &context.rough).map_or(context.rough, |(affine, _)| affine);
         let kind = if context.kind == Kind::Clip { Kind::Clip } else { Kind::Text(self.element(node)) };
@@ -339,19 +343,32 @@ impl<'a, 'input> Collector<'a, 'input> {
         best(&candidates, rough).map_or(*rough, |(affine, _)| affine)
     }
 
+    /// The shapes that `use` can bring in.
+    fn reusable(&mut self) -> Rc<Vec<Node<'a, 'input>>> {
+        let source = self.source;
+        let find = || {
+            let shapes = source.document.descendants().filter(|n| shape::SHAPES.contains(&n.tag_name().name()));
+            Rc::new(shapes.filter(|n| n.ancestors().any(|a| source.uses(a).next().is_some())).collect())
+        };
+        self.reusable.get_or_insert_with(find).clone()
+    }
+
+    fn shape(&mut self, node: Node) -> Option<Rc<Shape>> {
+        self.shapes.entry(node.id()).or_insert_with(|| shape::read(node).map(Rc::new)).clone()
+    }
+
     /// The element that `path` stands for, read from the file.
     fn locate(&mut self, path: &usvg::Path, rough: &Affine) -> Option<Located<'a, 'input>> {
         let source = self.source;
-        let mut nodes: Vec<Node> =
-            source.elements(path.id()).filter(|n| shape::SHAPES.contains(&n.tag_name().name())).collect();
-        if nodes.len() > 1 {
-            // A name given twice: the first that looks right.
-            let start = path.data().points().first().copied();
-            let looks_right = |node: &Node| {
-                let drawn = shape::read(*node).and_then(|s| s.outline.subpaths.first().map(|s| s.start));
-                drawn.zip(start).is_some_and(|(a, b)| (a.x as f32, a.y as f32) == (b.x, b.y))
-            };
-            nodes.retain(looks_right);
+        let named = source.elements(path.id()).filter(|n| shape::SHAPES.contains(&n.tag_name().name()));
+        let mut nodes: Vec<Node> = named.collect();
+        // usvg takes the names away from what `use` brings in; and a name may be given twice: then the first that looks
+        // right and stands at the right place.
+        if path.id().is_empty() {
+            nodes = self.reusable().to_vec();
+        }
+        if nodes.len() > 1 || path.id().is_empty() {
+            nodes.retain(|node| self.shape(*node).is_none_or(|s| looks_like(&s.outline, path.data())));
         }
         let mut chosen: Option<(Node, Affine, f64)> = None;
         for node in &nodes {
@@ -362,12 +379,12 @@ impl<'a, 'input> Collector<'a, 'input> {
             }
         }
         let node = chosen.map(|c| c.0).or_else(|| source.elements(path.id()).next())?;
-        let shape = self.shapes.entry(node.id()).or_insert_with(|| shape::read(node).map(Rc::new)).clone();
+        let shape = self.shape(node);
         let is_round = matches!(node.tag_name().name(), "circle" | "ellipse");
         let exact = shape.is_some() && chosen.is_some();
         let cut_at = shape.as_ref().and_then(|s| s.cut_at);
         let outline = match shape {
-            Some(shape) => Rc::new(shape.outline.clone()),
+            Some(shape) => shape.outline.clone(),
             None => Rc::new(single_precision(path.data(), is_round)),
         };
         Some(Located { node, outline, affine: chosen.map_or(*rough, |c| c.1), exact, cut_at })
@@ -380,6 +397,30 @@ struct Located<'a, 'input> {
     affine: Affine,
     exact: bool,
     cut_at: Option<usize>,
+}
+
+/// Whether usvg's path can be this outline: every point where a command ends comes in it, in order.
+fn looks_like(outline: &Outline, path: &usvg::tiny_skia_path::Path) -> bool {
+    use usvg::tiny_skia_path::PathSegment;
+    /// Single precision, after a sum or two.
+    const ALIKE: f64 = 1e-6;
+    let b = path.bounds();
+    let size = [b.left(), b.top(), b.right(), b.bottom()].iter().fold(0.0f64, |m, x| m.max(f64::from(x.abs())));
+    let mut drawn = path.segments().filter_map(|s| match s {
+        PathSegment::MoveTo(p) | PathSegment::LineTo(p) | PathSegment::QuadTo(_, p) | PathSegment::CubicTo(_, _, p) => {
+            Some(Point::new(f64::from(p.x), f64::from(p.y)))
+        }
+        PathSegment::Close => None,
+    });
+    let alike = |p: Point, q: Point| (p - q).amax() <= ALIKE * size;
+    let mut ends = outline.subpaths.iter().filter(|s| !s.commands.is_empty()).flat_map(|s| {
+        std::iter::once((true, s.start)).chain(s.commands.iter().map(|c| (!matches!(c, Command::Arc(_)), c.end())))
+    });
+    // Only an arc may have points of its own in between.
+    let mut next = |exact: bool, p: Point| {
+        if exact { drawn.next().is_some_and(|q| alike(p, q)) } else { drawn.any(|q| alike(p, q)) }
+    };
+    ends.all(|(exact, p)| next(exact, p)) && drawn.next().is_none()
 }
 
 /// The first coordinate beyond what is taken for meant.

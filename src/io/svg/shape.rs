@@ -1,5 +1,6 @@
 //! Geometry of an SVG element, read from its attributes in `f64`.
 
+use std::rc::Rc;
 use std::str::FromStr;
 
 use svgtypes::{LengthUnit, PathParser, PathSegment, PointsParser};
@@ -14,7 +15,7 @@ use super::outline::{Command, Outline};
 /// What an element's attributes say.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shape {
-    pub outline: Outline,
+    pub outline: Rc<Outline>,
     /// Where the path data broke off, counted in characters, if it did.
     pub cut_at: Option<usize>,
 }
@@ -25,7 +26,7 @@ pub(super) const SHAPES: [&str; 7] = ["path", "rect", "circle", "ellipse", "poly
 /// The outline of `node`; `None` where it is no shape, or its size needs more context than its own attributes
 /// (per cent, `em`).
 pub(super) fn read(node: Node) -> Option<Shape> {
-    let whole = |outline| Some(Shape { outline, cut_at: None });
+    let whole = |outline| Some(Shape { outline: Rc::new(outline), cut_at: None });
     let length = |name| user_length(node, name);
     match node.tag_name().name() {
         "path" => Some(read_path(attribute(node, "d").unwrap_or(""))),
@@ -119,14 +120,14 @@ fn read_path(data: &str) -> Shape {
                     | svgtypes::Error::InvalidNumber(at) => at,
                     _ => data.chars().count(),
                 };
-                return Shape { outline: reader.outline, cut_at: Some(at) };
+                return Shape { outline: Rc::new(reader.outline), cut_at: Some(at) };
             }
         }
         count += 1;
     }
     // "none" and nothing at all are ways to say that there is no path.
     let garbage = count == 0 && !matches!(data, "" | "none");
-    Shape { outline: reader.outline, cut_at: garbage.then_some(0) }
+    Shape { outline: Rc::new(reader.outline), cut_at: garbage.then_some(0) }
 }
 
 /// Makes relative and smooth commands absolute.
@@ -236,7 +237,7 @@ mod tests {
         assert_eq!(rect.outline.subpaths[0].start, Point::new(97.0, 0.0));
         let straight = |c: &&Command| matches!(c, Command::Line(_));
         assert_eq!(rect.outline.subpaths[0].commands.iter().filter(straight).count(), 2);
-        assert_eq!(shapes[1].as_ref().unwrap().outline, Outline::default());
+        assert_eq!(*shapes[1].as_ref().unwrap().outline, Outline::default());
         assert_eq!(shapes[2], None);
     }
 }
