@@ -1,6 +1,7 @@
 //! Morphological closing and opening of outlines without dilating and eroding.
 
 pub mod gcode;
+pub mod io;
 pub mod plane;
 pub mod rolling;
 pub mod units;
