@@ -32,7 +32,7 @@ impl Contour {
     }
 
     /// The elements from an entry around to it again; none for a place to drill.
-    pub(super) fn from_entry(&self, entry: &EntryPlace) -> Vec<Segment> {
+    pub(super) fn around_from(&self, entry: &EntryPlace) -> Vec<Segment> {
         if self.is_point() {
             return Vec::new();
         }

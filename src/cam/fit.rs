@@ -87,7 +87,9 @@ enum Ends {
 fn stations(run: &[Segment], ends: Ends) -> Vec<Station> {
     let n = run.len();
     let is_arc = |i: usize| matches!(run[i].link, Link::Arc(_));
-    let neighbour = |i: usize, step: usize| (ends == Ends::Closed || (i + step > 0 && i + step <= n)).then(|| (i + step + n - 1) % n);
+    let neighbour = |i: usize, step: usize| {
+        (ends == Ends::Closed || (i + step > 0 && i + step <= n)).then(|| (i + step + n - 1) % n)
+    };
     let mut out = Vec::with_capacity(n + 2);
     let mut turned = 0.0;
     if ends == Ends::Open {

@@ -282,8 +282,7 @@ impl Job {
             }
         }
         if self.safe_height <= self.stock_top {
-            problems
-                .push(JobProblem::SafeHeightTooLow { safe_height: self.safe_height, stock_top: self.stock_top });
+            problems.push(JobProblem::SafeHeightTooLow { safe_height: self.safe_height, stock_top: self.stock_top });
         }
         if self.depth > 0.0 && self.depth_per_pass > 0.0 && self.depth / self.depth_per_pass > LARGEST_PASS_COUNT {
             problems.push(JobProblem::TooManyPasses { depth: self.depth, depth_per_pass: self.depth_per_pass });
@@ -355,9 +354,15 @@ mod tests {
             ..Job::default()
         };
         let text = job.validate().unwrap_err().to_string();
-        for field in
-            ["tool-diameter is NaN", "depth is -1", "depth-per-pass is 0", "spindle-speed", "dwell", "safe-height", "acceleration"]
-        {
+        for field in [
+            "tool-diameter is NaN",
+            "depth is -1",
+            "depth-per-pass is 0",
+            "spindle-speed",
+            "dwell",
+            "safe-height",
+            "acceleration",
+        ] {
             assert!(text.contains(field), "{field} is missing in: {text}");
         }
         assert!(!text.contains("path-radius"), "{text}");

@@ -20,6 +20,8 @@ mod order;
 mod plan;
 mod side;
 mod simplify;
+#[cfg(test)]
+pub(crate) mod test_shapes;
 mod toolpath;
 mod walk;
 

@@ -10,7 +10,9 @@
 //! 4. pieces that ran backwards (chords of a concave curve as tight as the disk) are taken out, their neighbours meet
 //!    at their intersection, and that place is measured against the region.
 
-use crate::plane::{Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Turn, Vertex, right_normal, turn_angle};
+use crate::plane::{
+    Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Turn, Vertex, right_normal, turn_angle,
+};
 
 use carrier::{Carrier, meet};
 
@@ -33,8 +35,10 @@ const TINY_LINK: f64 = 1e-9;
 /// The same relative to the size of the coordinates, whose last digits are noise.
 const TINY_COORDINATE: f64 = 1e-11;
 
-/// How much nearer than the distance, relative to it, a repaired place may come to the region.
-const REPAIR_TOLERANCE: f64 = 1e-4;
+/// How much nearer than the distance a repaired place may come to the region, in millimetres: half of the gouge that a
+/// program may have. Chords bulge out of the curve that they stand for, by their sagitta, and a curve that is just wide
+/// enough for the disk is too narrow by that much.
+const REPAIR_TOLERANCE: f64 = 1e-3;
 
 /// Why a region has no local offset.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -95,7 +99,7 @@ pub fn offset(closed: &Region, distance: f64) -> Result<Region, OffsetError> {
     }
     if !repaired.is_empty() {
         let index = BoundaryIndex::new(closed);
-        let limit = distance * (1.0 - REPAIR_TOLERANCE);
+        let limit = distance - REPAIR_TOLERANCE;
         if let Some(&at) = repaired.iter().find(|p| index.is_nearer(**p, limit)) {
             return Err(OffsetError::NoRoom { at });
         }
@@ -184,9 +188,7 @@ fn raw_pieces(segments: &[Segment], joints: &[Joint], distance: f64) -> Result<V
         if turn < NOISE_TURN - std::f64::consts::PI {
             turn += std::f64::consts::TAU;
         }
-        let chords = joints[i] == Joint::Smooth
-            && segments[before].link == Link::Line
-            && segment.link == Link::Line;
+        let chords = joints[i] == Joint::Smooth && segments[before].link == Link::Line && segment.link == Link::Line;
         let joint = if chords { Joint::Smooth } else { Joint::Corner };
         let (carrier, vanishes) = carriers[i];
         let mut start = vertex + right_normal(t_out) * distance;
@@ -292,7 +294,7 @@ fn without_backward(
             let start = meet(&pieces[p].carrier, &pieces[n].carrier, middle, distance);
             match start {
                 Some(start) => start,
-                None if apart <= REPAIR_TOLERANCE * distance => middle,
+                None if apart <= REPAIR_TOLERANCE => middle,
                 None => return Err(OffsetError::NoRoom { at: middle }),
             }
         };
@@ -313,3 +315,6 @@ fn without_backward(
     pieces.retain(|_| *keep.next().expect("one flag a piece"));
     Ok(Ok(pieces))
 }
+
+#[cfg(test)]
+mod tests;

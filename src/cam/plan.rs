@@ -96,8 +96,9 @@ fn cut(job: &Job, contours: &[Contour], stop: &Stop, number: usize, moves: &mut 
     if approach < job.safe_height {
         push(entry.point, approach, MoveKind::Rapid);
     }
-    let walk = (!contour.is_point()).then(|| Walk::new(contour.from_entry(&entry)));
-    let ramped = walk.as_ref().filter(|w| job.entry == Entry::Ramp && w.length() >= SHORTEST_RAMPED * job.tool_diameter);
+    let walk = (!contour.is_point()).then(|| Walk::new(contour.around_from(&entry)));
+    let ramped =
+        walk.as_ref().filter(|w| job.entry == Entry::Ramp && w.length() >= SHORTEST_RAMPED * job.tool_diameter);
     let mut here = entry.point;
     if ramped.is_some() {
         push(here, job.stock_top, MoveKind::Plunge);

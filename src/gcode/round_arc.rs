@@ -82,7 +82,10 @@ pub(super) fn round_arc(exact: &Segment, arc: &Arc, start: [i64; 2], end: [i64; 
         }
     }
     let Some((cost, mismatch, [i, j])) = best else { return Rounded::Unwritable };
-    if (i, j) == (0, 0) || cost - mismatch > LARGEST_DEVIATION || !same_way(s, e, Vector::new(i as f64, j as f64), arc.turn, sweep) {
+    if (i, j) == (0, 0)
+        || cost - mismatch > LARGEST_DEVIATION
+        || !same_way(s, e, Vector::new(i as f64, j as f64), arc.turn, sweep)
+    {
         return Rounded::Unwritable;
     }
     Rounded::Arc { i, j }

@@ -237,8 +237,7 @@ impl<'a> Writer<'a> {
         let scaled = |p: Point| Point::from((p - origin) / step);
         let center = scaled(arc.center);
         let scaled_arc = Arc { center, radius: arc.radius / step, ..*arc };
-        let scaled_exact =
-            Segment { start: scaled(exact.start), end: scaled(exact.end), link: Link::Arc(scaled_arc) };
+        let scaled_exact = Segment { start: scaled(exact.start), end: scaled(exact.end), link: Link::Arc(scaled_arc) };
         let rounded = round_arc(&scaled_exact, &scaled_arc, [0, 0], [end[0] - x, end[1] - y]);
         match rounded {
             Rounded::Line => self.straight("G1", exact.end, z[1], contour, Some(feed)),
