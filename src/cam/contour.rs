@@ -4,6 +4,9 @@ use crate::plane::{Joint, Point, Ring, Segment};
 
 use super::entry::{self, EntryPlace};
 
+/// Paths shorter than this, in millimetres, are places to drill: their loop is smaller than the last decimal written.
+const SHORTEST_LOOP: f64 = 1e-4;
+
 /// A closed cut, in the direction in which the tool travels it.
 #[derive(Clone, Debug)]
 pub struct Contour {
@@ -16,6 +19,11 @@ pub struct Contour {
 impl Contour {
     /// The contour of a path that has the part on its left, travelled as it is or backwards.
     pub(super) fn new(path: Ring, backwards: bool) -> Option<Contour> {
+        let path = if path.len() > 1 && path.length() < SHORTEST_LOOP {
+            Ring { vertices: path.vertices[..1].to_vec() }
+        } else {
+            path
+        };
         let entries = entry::places(&path)?;
         if !backwards || path.len() < 2 {
             return Some(Contour { path, entries });

@@ -22,6 +22,10 @@ pub const ARC_FIT_TOLERANCE: f64 = 5e-4;
 /// the sagitta of chords, so runs with longer ones were no flattened curve, and stay.
 const LARGEST_BULGE: f64 = 2e-3;
 
+/// The fewest stations that a biarc has to pass: on fewer it would not be shorter than what it replaces, as the elements
+/// that it begins and ends on are cut in two.
+const FEWEST_STATIONS: usize = 3;
+
 /// The most that a biarc turns, in radians: half a turn and it would no longer be clear which of its arcs is meant.
 const LARGEST_TURN: f64 = 2.0;
 
@@ -139,9 +143,9 @@ fn fit_run(run: &[Segment], out: &mut Vec<Segment>) {
         let fits = |to: usize| biarc_within_tolerance(run, &stations[from..=to]);
         // Gallop, then bisect: the number of stations looked at stays a small multiple of those passed.
         let (mut good, mut best) = (from + 1, None);
-        let mut step = 2;
+        let mut step = FEWEST_STATIONS;
         let mut bad = last + 1;
-        while good < last {
+        while good < last && from + FEWEST_STATIONS <= last {
             let to = (from + step).min(last);
             match fits(to) {
                 Some(biarc) => (good, best) = (to, Some(biarc)),

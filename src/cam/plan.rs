@@ -16,6 +16,9 @@ const RAMP_SLOPE: f64 = 0.1;
 /// plunge loads it no more.
 const SHORTEST_RAMPED: f64 = 0.5;
 
+/// The most rounds that a ramp makes; where a pass would take more, the tool plunges.
+const LARGEST_RAMP_ROUNDS: f64 = 50.0;
+
 /// How high above the stock the tool goes from rapid to plunge, in millimetres: sheets are rarely flatter.
 const APPROACH: f64 = 1.0;
 
@@ -75,6 +78,12 @@ pub fn plan(job: &Job, part: &Region, closed: &Region) -> Result<Toolpath, PlanE
     })
 }
 
+/// The length of the shortest path that is ramped along.
+fn shortest_ramped(job: &Job) -> f64 {
+    let ramp = job.depth_per_pass.min(job.depth) / RAMP_SLOPE;
+    (SHORTEST_RAMPED * job.tool_diameter).max(ramp / LARGEST_RAMP_ROUNDS)
+}
+
 /// What brings the origin to where the job wants it.
 fn translation(origin: Origin, part: &Region) -> Vector {
     let bounds = part.bounds();
@@ -97,8 +106,7 @@ fn cut(job: &Job, contours: &[Contour], stop: &Stop, number: usize, moves: &mut 
         push(entry.point, approach, MoveKind::Rapid);
     }
     let walk = (!contour.is_point()).then(|| Walk::new(contour.around_from(&entry)));
-    let ramped =
-        walk.as_ref().filter(|w| job.entry == Entry::Ramp && w.length() >= SHORTEST_RAMPED * job.tool_diameter);
+    let ramped = walk.as_ref().filter(|w| job.entry == Entry::Ramp && w.length() >= shortest_ramped(job));
     let mut here = entry.point;
     if ramped.is_some() {
         push(here, job.stock_top, MoveKind::Plunge);

@@ -9,7 +9,8 @@ pub struct Dialect {
     pub comment_open: &'static str,
     /// What closes it.
     pub comment_close: &'static str,
-    /// Decimals of coordinates in millimetres.
+    /// Decimals of coordinates in millimetres. On a plate with holes three gouge by up to 4e-4 mm and four by up to 5e-5
+    /// mm, for 5 % more text; a fifth is below what controllers in single precision hold.
     pub decimals_mm: u8,
     /// Decimals of coordinates in inches.
     pub decimals_inch: u8,

@@ -137,6 +137,19 @@ fn small_holes_are_entered_by_a_helix_and_points_by_plunging() {
 }
 
 #[test]
+fn deep_passes_in_small_holes_plunge_instead_of_turning_forever() {
+    let part = plate(1, 1, 2.4);
+    let deep = Job { depth: 500.0, depth_per_pass: 500.0, ..job() };
+    let toolpath = plan(&deep, &part, &part).unwrap();
+    assert_safe(&toolpath, &deep);
+    assert!(toolpath.moves.iter().all(|m| m.contour != 0 || !matches!(m.kind, MoveKind::Ramp(_))));
+    // A loop smaller than a decimal is a place to drill.
+    let speck = plate(1, 1, 2.000_001);
+    let toolpath = plan(&job(), &speck, &speck).unwrap();
+    assert!(toolpath.moves.iter().all(|m| m.contour != 0 || m.link().is_none()));
+}
+
+#[test]
 fn nothing_to_cut_and_bad_jobs_are_errors() {
     let part = rounded_l(3.0);
     assert_eq!(plan(&job(), &part, &Region::default()), Err(PlanError::Empty));
@@ -162,6 +175,12 @@ proptest! {
         };
         let toolpath = plan(&job, &part, &part).unwrap();
         assert_safe(&toolpath, &job);
+        // Straight or convex where it enters the outer contour, which is the second.
+        let entered = legs(&toolpath).find(|(_, b)| b.contour == 1 && b.link().is_some()).unwrap();
+        match entered.1.link().unwrap() {
+            Link::Line => {}
+            Link::Arc(arc) => prop_assert_eq!(arc.turn, toolpath.part_side),
+        }
         let index = BoundaryIndex::new(&part);
         for (a, b) in legs(&toolpath) {
             let Some(link) = b.link() else { continue };

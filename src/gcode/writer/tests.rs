@@ -1,3 +1,4 @@
+use std::f64::consts::TAU;
 use std::process::Command;
 
 use proptest::prelude::*;
@@ -72,8 +73,8 @@ impl Machine {
         assert!(text.is_ascii() && text.ends_with('\n'));
         for line in text.lines() {
             assert!(line.len() <= 79 && !machine.ended, "{line}");
-            if line.starts_with('(') {
-                assert!(line.ends_with(')') && line[1..].find('(').is_none() && line.find(')') == Some(line.len() - 1));
+            if let Some(inner) = line.strip_prefix('(') {
+                assert!(inner.find(['(', ')']) == Some(inner.len() - 1), "{line}");
                 assert!(machine.stated.is_empty(), "a comment behind the head: {line}");
                 continue;
             }
@@ -259,7 +260,7 @@ fn arcs_that_rounding_would_break_become_lines_or_two_arcs() {
     let tiny = arc(p(0.0, 0.0), 2.0, Turn::Left);
     assert!(cut_of(p(2.0, 0.0), tiny.travel(p(2.0, 0.0), 1e-5), Link::Arc(tiny)).is_empty());
     // Nearly all around.
-    let end = tiny.travel(p(2.0, 0.0), std::f64::consts::TAU - 1e-5);
+    let end = tiny.travel(p(2.0, 0.0), TAU - 1e-5);
     let lines = cut_of(p(2.0, 0.0), end, Link::Arc(tiny));
     assert_eq!(lines.len(), 2);
     assert!(lines.iter().all(|l| l.starts_with("G3 ")), "{lines:?}");
@@ -367,7 +368,7 @@ proptest! {
     /// Any arc: what is written is within a last decimal or so of what was meant.
     #[test]
     fn written_arcs_are_the_arcs_meant(
-        radius in 0.001..900.0f64, from in 0.0..6.28f64, sweep in 1e-4..6.28f64, left: bool, x in -500.0..500.0f64,
+        radius in 0.001..900.0f64, from in 0.0..TAU, sweep in 1e-4..0.999 * TAU, left: bool, x in -500.0..500.0f64,
     ) {
         let turn = if left { Turn::Left } else { Turn::Right };
         let arc = Arc { center: p(x, -0.3 * x), radius, turn };
@@ -382,6 +383,8 @@ proptest! {
         ]);
         let text = write(&toolpath, &[], &GRBL, WriteOptions::default()).unwrap();
         let machine = Machine::run(&text, &GRBL);
+        // The ends of a half circle may be an odd number of decimals apart: one decimal is the best that there is.
+        prop_assert!(machine.worst_mismatch <= 1.5e-4, "{} {:?}", machine.worst_mismatch, text);
         let mut length = 0.0;
         for s in machine.segments().skip(1) {
             length += s.length();
@@ -394,20 +397,5 @@ proptest! {
             }
         }
         prop_assert!((length - exact.length()).abs() <= 1e-3 * (1.0 + exact.length()), "{} {}", length, exact.length());
-    }
-}
-
-/// Not a test: writes the programs of all shapes into the folder that CLOPEN_PROGRAMS names, for a judge to run.
-#[test]
-#[ignore = "writes files"]
-fn programs_for_a_judge() {
-    let Some(folder) = std::env::var_os("CLOPEN_PROGRAMS").map(std::path::PathBuf::from) else { return };
-    for (name, region) in shapes() {
-        for dialect in Dialect::ALL {
-            for (k, options) in OPTIONS.into_iter().enumerate() {
-                let file = format!("{}-{}-{k}.ngc", name.replace(' ', "-"), dialect.name);
-                std::fs::write(folder.join(file), program(&region, &job(), &dialect, options)).unwrap();
-            }
-        }
     }
 }
