@@ -49,8 +49,23 @@ impl Biarc {
         offside(self.arc_at(p), p)
     }
 
+    /// The points inside `element` where its distance from the curve may be greatest or least: where it runs parallel to
+    /// one of the arcs.
+    pub(super) fn extremes(&self, element: &Segment) -> [Option<Point>; 4] {
+        let [a, b] = [&self.first, &self.second].map(|own| {
+            let points = match (own.link, element.link) {
+                (Link::Line, Link::Line) => [None; 2],
+                (Link::Arc(own), Link::Line) => [Some(element.nearest(own.center).point), None],
+                (Link::Line, Link::Arc(arc)) => across(&arc, right_normal(own.start_tangent())),
+                (Link::Arc(own), Link::Arc(arc)) => across(&arc, arc.center - own.center),
+            };
+            points.map(|p| p.filter(|p| is_inside(element, *p)))
+        });
+        [a[0], a[1], b[0], b[1]]
+    }
+
     /// The arc that `p` belongs to.
-    pub(super) fn arc_at(&self, p: Point) -> &Segment {
+    fn arc_at(&self, p: Point) -> &Segment {
         if (p - self.joint.point).dot(&self.joint.tangent) < 0.0 { &self.first } else { &self.second }
     }
 }
@@ -66,6 +81,21 @@ fn arc_from(from: Place, to: Point) -> Segment {
     let turn = if radius > 0.0 { Turn::Left } else { Turn::Right };
     let center = from.point + left_normal(from.tangent) * radius;
     Segment { start: from.point, end: to, link: Link::Arc(Arc { center, radius: radius.abs(), turn }) }
+}
+
+/// The two points of a circle on the diameter along `direction`.
+fn across(arc: &Arc, direction: Vector) -> [Option<Point>; 2] {
+    let spoke = direction.try_normalize(0.0).map(|d| d * arc.radius);
+    [spoke.map(|s| arc.center + s), spoke.map(|s| arc.center - s)]
+}
+
+/// Whether a point of the line or circle that `element` runs on belongs to the element.
+fn is_inside(element: &Segment, p: Point) -> bool {
+    match element.link {
+        // The nearest point of a straight element is always its own.
+        Link::Line => true,
+        Link::Arc(arc) => arc.angle_between(element.start, p) <= element.sweep(),
+    }
 }
 
 /// How far `p` lies right of the line or circle that `segment` runs on.

@@ -188,11 +188,7 @@ fn biarc_within_tolerance(run: &[Segment], stations: &[Station]) -> Option<Biarc
         let mut look = |p: Point| within &= allowed.contains(&biarc.offside(p));
         look(element.start);
         look(element.end);
-        look(element.point_at(0.5));
-        // Where a chord runs parallel to the arc it is farthest from it.
-        if let (Link::Line, Link::Arc(arc)) = (element.link, biarc.arc_at(element.point_at(0.5)).link) {
-            look(element.nearest(arc.center).point);
-        }
+        biarc.extremes(&element).into_iter().flatten().for_each(look);
     });
     within.then_some(biarc)
 }

@@ -4,11 +4,11 @@
 //! each other than 2R across the empty side, so that an offset by d <= R cannot cross itself. Stages:
 //!
 //! 1. links shorter than [`TINY_LINK`] are dropped, because their direction is noise;
-//! 2. lines shift, convex arcs grow, concave arcs shrink (and vanish to a point when as tight as the disk);
+//! 2. lines shift, convex arcs grow, concave arcs shrink, to a point when they are as tight as the disk;
 //! 3. at every vertex the pieces meet: an arc about a convex corner, a common point at a tangent joint, a mitre at a
 //!    sample of a smooth concave curve. A true concave corner is an error;
-//! 4. pieces that ran backwards (chords of a concave curve as tight as the disk) are taken out, their neighbours meet
-//!    at their intersection, and that place is measured against the region.
+//! 4. pieces without length, and those that run backwards (chords of a concave curve as tight as the disk), are taken
+//!    out, their neighbours meet at their intersection, and that place is measured against the region.
 
 use crate::plane::{
     Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Turn, Vertex, right_normal, turn_angle,
@@ -26,7 +26,7 @@ const TANGENT_TURN: f64 = 1e-4;
 const NOISE_TURN: f64 = 1e-3;
 
 /// Difference of radius and distance, relative to the distance, up to which a concave arc counts as tight as the disk
-/// and vanishes. Rounding of drawings and of the closing is well below.
+/// and shrinks to a point. Rounding of drawings and of the closing is well below.
 const VANISHING: f64 = 1e-9;
 
 /// Links shorter than this, relative to the distance, are dropped: their direction is noise.
@@ -115,8 +115,6 @@ struct Piece {
     carrier: Carrier,
     /// What it sweeps if nothing is cut off; tells a short way round from a backward one.
     expected_sweep: f64,
-    /// A concave arc as tight as the disk: all of it is one point.
-    vanishes: bool,
 }
 
 fn offset_ring(ring: &Ring, distance: f64, repaired: &mut Vec<Point>) -> Result<Ring, OffsetError> {
@@ -125,13 +123,7 @@ fn offset_ring(ring: &Ring, distance: f64, repaired: &mut Vec<Point>) -> Result<
         return Ok(Ring::default());
     }
     let pieces = raw_pieces(&segments, &joints, distance)?;
-    let pieces = without_vanishing(pieces);
-    let tiny = TINY_LINK * distance;
-    let pieces = match pieces {
-        Ok(pieces) => without_backward(pieces, tiny, distance, repaired)?,
-        Err(point) => Err(point),
-    };
-    Ok(match pieces {
+    Ok(match without_backward(pieces, TINY_LINK * distance, distance, repaired)? {
         Err(point) => {
             repaired.push(point);
             Ring { vertices: vec![Vertex::corner(point)] }
@@ -190,7 +182,7 @@ fn raw_pieces(segments: &[Segment], joints: &[Joint], distance: f64) -> Result<V
         }
         let chords = joints[i] == Joint::Smooth && segments[before].link == Link::Line && segment.link == Link::Line;
         let joint = if chords { Joint::Smooth } else { Joint::Corner };
-        let (carrier, vanishes) = carriers[i];
+        let carrier = carriers[i];
         let mut start = vertex + right_normal(t_out) * distance;
         if turn > TANGENT_TURN {
             let about = Arc { center: vertex, radius: distance, turn: Turn::Left };
@@ -199,7 +191,6 @@ fn raw_pieces(segments: &[Segment], joints: &[Joint], distance: f64) -> Result<V
                 joint,
                 carrier: Carrier::Circle(about),
                 expected_sweep: turn,
-                vanishes: false,
             });
         } else {
             let mitred = turn < -TANGENT_TURN;
@@ -210,55 +201,29 @@ fn raw_pieces(segments: &[Segment], joints: &[Joint], distance: f64) -> Result<V
             let bisector = right_normal(t_in + t_out) * (2.0 * distance / (t_in + t_out).norm_squared());
             start = vertex + bisector;
             if mitred && joint == Joint::Corner {
-                start = meet(&carriers[before].0, &carrier, start, distance).unwrap_or(start);
+                start = meet(&carriers[before], &carrier, start, distance).unwrap_or(start);
             }
         }
-        pieces.push(Piece { start, joint, carrier, expected_sweep: segment.sweep(), vanishes });
+        pieces.push(Piece { start, joint, carrier, expected_sweep: segment.sweep() });
     }
     Ok(pieces)
 }
 
-/// Where a boundary element runs after the offset, and whether it vanishes to a point.
-fn shifted(segment: &Segment, distance: f64) -> Result<(Carrier, bool), OffsetError> {
+/// Where a boundary element runs after the offset; a concave arc as tight as the disk on a circle without radius.
+fn shifted(segment: &Segment, distance: f64) -> Result<Carrier, OffsetError> {
     Ok(match segment.link {
         Link::Line => {
             let direction = segment.start_tangent();
-            (Carrier::Line { through: segment.start + right_normal(direction) * distance, direction }, false)
+            Carrier::Line { through: segment.start + right_normal(direction) * distance, direction }
         }
         Link::Arc(arc) => {
             let radius = arc.radius + arc.turn.sign() * distance;
-            let vanishes = radius <= VANISHING * distance;
             if radius < -VANISHING * distance {
                 return Err(OffsetError::TooTight { at: segment.point_at(0.5), radius: arc.radius, distance });
             }
-            (Carrier::Circle(Arc { radius: radius.max(0.0), ..arc }), vanishes)
+            Carrier::Circle(Arc { radius: radius.max(0.0), ..arc })
         }
     })
-}
-
-/// The pieces with every vanishing arc made a joint at its centre; `Err` with the place if nothing else is left.
-fn without_vanishing(mut pieces: Vec<Piece>) -> Result<Vec<Piece>, Point> {
-    let Some(first) = pieces.iter().position(|p| !p.vanishes) else {
-        let sum = pieces.iter().fold(crate::plane::Vector::zeros(), |s, p| s + p.carrier.anchor().coords);
-        return Err(Point::from(sum / pieces.len() as f64));
-    };
-    pieces.rotate_left(first);
-    let mut out: Vec<Piece> = Vec::with_capacity(pieces.len());
-    let mut centre = None;
-    for piece in pieces {
-        if piece.vanishes {
-            centre = Some(piece.carrier.anchor());
-        } else if let Some(start) = centre.take() {
-            out.push(Piece { start, joint: Joint::Corner, ..piece });
-        } else {
-            out.push(piece);
-        }
-    }
-    if let Some(start) = centre {
-        out[0].start = start;
-        out[0].joint = Joint::Corner;
-    }
-    Ok(out)
 }
 
 /// Stage 4. `Ok(Err(point))` where the whole ring shrinks to a point.

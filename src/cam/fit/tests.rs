@@ -106,6 +106,27 @@ fn collinear_links_are_joined() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
+    /// Samples at uneven distances, and a little off any curve.
+    #[test]
+    fn the_part_is_safe_from_uneven_samples(
+        steps in proptest::collection::vec((0.05..1.0f64, -1.0..1.0f64), 100..600), noise in 0.0..4e-4f64, hole: bool,
+    ) {
+        let whole: f64 = steps.iter().map(|s| s.0).sum();
+        let mut angle = 0.0;
+        let vertices = steps.iter().map(|(step, off)| {
+            angle += 2.0 * PI * step / whole;
+            let point = wavy_offset(12.0, 0.08, 3.0, angle, noise * off);
+            crate::plane::Vertex { joint: Joint::Smooth, ..crate::plane::Vertex::corner(point) }
+        });
+        let ring = Ring { vertices: vertices.collect() };
+        let region = Region::new(vec![if hole { ring.reversed() } else { ring }]);
+        let Ok(path) = offset(&region, 1.0) else { return Ok(()) };
+        let fitted = fit_arcs(&path.rings[0]);
+        let (before, after) = (deviation(&path.rings[0], &region, 1.0), deviation(&fitted, &region, 1.0));
+        prop_assert!(after.0 <= before.0 + ARC_FIT_TOLERANCE * 1.000001, "{:?} {:?}", before, after);
+        prop_assert!(after.1 <= before.1 + ARC_FIT_TOLERANCE + LARGEST_BULGE, "{:?} {:?}", before, after);
+    }
+
     /// Whatever the curve and its sampling, the part is not cut by more than the tolerance.
     #[test]
     fn the_part_is_safe(size in 5.0..40.0f64, depth in 0.0..0.15f64, lobes in 0..5u8, count in 30..1500usize, d in 0.2..1.5f64, hole: bool) {

@@ -28,14 +28,6 @@ pub(super) enum Carrier {
 }
 
 impl Carrier {
-    /// A point that stands for the carrier: the centre of a circle.
-    pub(super) fn anchor(&self) -> Point {
-        match self {
-            Carrier::Line { through, .. } => *through,
-            Carrier::Circle(arc) => arc.center,
-        }
-    }
-
     /// As the link of a ring.
     pub(super) fn link(&self) -> Link {
         match self {

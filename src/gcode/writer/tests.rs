@@ -383,8 +383,10 @@ proptest! {
         ]);
         let text = write(&toolpath, &[], &GRBL, WriteOptions::default()).unwrap();
         let machine = Machine::run(&text, &GRBL);
-        // The ends of a half circle may be an odd number of decimals apart: one decimal is the best that there is.
-        prop_assert!(machine.worst_mismatch <= 1.5e-4, "{} {:?}", machine.worst_mismatch, text);
+        // The ends of a half circle may be an odd number of decimals apart: one decimal is the best that there is. On short
+        // arcs a step of the centre changes the radii by less.
+        let best = if sweep < 0.5 { 0.3e-4 } else { 1.5e-4 };
+        prop_assert!(machine.worst_mismatch <= best, "{} {:?}", machine.worst_mismatch, text);
         let mut length = 0.0;
         for s in machine.segments().skip(1) {
             length += s.length();
