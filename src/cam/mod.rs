@@ -1,0 +1,40 @@
+//! From a closed region to the moves of a tool.
+//!
+//! A [`Job`] says what to cut and how. Its [`Side`] says which region has to be closed, and by how much; the closing
+//! itself is not made here. [`plan`] takes the closed region and gives a [`Toolpath`]: the exact [`offset`] of the
+//! boundary, runs of chords joined to arcs ([`fit_arcs`]), contours in an order that never frees a piece before its
+//! inside is done, entries away from corners, passes by depth.
+//!
+//! Guaranteed: the tool's centre keeps the tool's radius from the closed region, up to [`ARC_FIT_TOLERANCE`]; it travels
+//! in x and y only at the safe height; it enters the stock only by a ramp or a straight plunge at the plunge feed.
+//! Refused: regions with concave features tighter than the tool, jobs with values that make no sense.
+
+mod biarc;
+mod contour;
+mod entry;
+mod fit;
+mod job;
+mod job_file;
+mod offset;
+mod order;
+mod plan;
+mod side;
+mod simplify;
+#[cfg(test)]
+pub(crate) mod test_shapes;
+mod toolpath;
+mod walk;
+
+pub use contour::Contour;
+pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};
+pub use job::{
+    DEFAULT_ACCELERATION, DEFAULT_DEPTH, DEFAULT_DEPTH_PER_PASS, DEFAULT_DIRECTION, DEFAULT_DWELL, DEFAULT_ENTRY,
+    DEFAULT_FEED, DEFAULT_ORIGIN, DEFAULT_PATH_RADIUS, DEFAULT_PLUNGE_FEED, DEFAULT_SAFE_CLEARANCE, DEFAULT_SIDE,
+    DEFAULT_SPINDLE_SPEED, DEFAULT_STOCK_TOP, DEFAULT_TOOL_DIAMETER, Direction, Entry, InvalidJob, Job, JobProblem,
+    Origin, PathRadius,
+};
+pub use job_file::{JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
+pub use offset::{OffsetError, offset};
+pub use plan::{PlanError, plan};
+pub use side::Side;
+pub use toolpath::{Move, MoveKind, Settings, Toolpath};
