@@ -1,5 +1,6 @@
 //! Morphological closing and opening of outlines without dilating and eroding.
 
+pub mod cam;
 pub mod gcode;
 pub mod plane;
 pub mod units;
