@@ -3,4 +3,5 @@
 pub mod cam;
 pub mod gcode;
 pub mod plane;
+pub mod preview;
 pub mod units;
