@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use clopen::gcode::{Controller, LintOptions, RULES, lint};
+use clopen::cam::{CertifyOptions, certify};
+use clopen::gcode::{Controller, LintOptions, RULES, lint, read};
+use clopen::plane::{Point, Region, Ring};
+use proptest::prelude::*;
 
 fn programs(folder: &str) -> Vec<(String, PathBuf, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/programs").join(folder);
@@ -88,4 +91,44 @@ fn linuxcnc_agrees() {
         }
     }
     assert!(disagreements.is_empty(), "{disagreements:#?}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Any text at all, and text that looks like a program: read or refused, never a panic.
+    #[test]
+    fn no_text_makes_the_reader_panic(
+        any in ".{0,80}",
+        words in prop::collection::vec("[GMTXYZIJKRFPSNO/%][-+]?[0-9]{0,4}[.]?[0-9]{0,3}[ \n(;]?", 0..60),
+    ) {
+        for text in [any, format!("G21 G90 G17 G94 F100\nG0 Z1\n{}", words.concat())] {
+            lint(&text, &LintOptions::default());
+            if let Ok(program) = read(&text) {
+                let disk = Region::new(vec![Ring::circle(Point::origin(), 10.0)]);
+                certify(&program, &disk, &disk, &CertifyOptions::new(1.5));
+            }
+        }
+    }
+
+    /// Programs of motions alone are all read, and certified.
+    #[test]
+    fn any_motions_can_be_certified(
+        motions in prop::collection::vec((0..4u8, prop::array::uniform5(-30..30i32), 1..2000i32), 0..30),
+        reach in prop::sample::select(vec![1.0, 0.01, 1e7]),
+    ) {
+        let mut text = String::from("G21 G90 G17 G94 F100\nG0 Z1\n");
+        for (g, [x, y, z, i, j], f) in motions {
+            let [x, y, i, j] = [x, y, i, j].map(|v| f64::from(v) * reach);
+            let center = if g > 1 { format!("I{i:.3} J{j:.3}") } else { String::new() };
+            text += &format!("G{g} X{x:.3} Y{y:.3} Z{} {center} F{f}\n", f64::from(z) / 10.0);
+        }
+        if let Ok(program) = read(&text) {
+            let disk = Region::new(vec![Ring::circle(Point::origin(), 10.0)]);
+            let found = certify(&program, &disk, &disk, &CertifyOptions::new(1.5));
+            prop_assert!(found.gouge.is_none_or(|g| g.depth_mm.is_finite() && g.depth_mm <= 11.5 + 1e-9));
+            prop_assert!(found.time.total_seconds().is_finite());
+            prop_assert!(found.uncut.area_mm2.is_finite() && found.uncut.area_mm2 >= 0.0);
+        }
+    }
 }

@@ -50,12 +50,13 @@ pub fn deepest_cut(
                 _ => solid.contains(element.start),
             };
             let (_, approach) = solid.boundary.approach(&element)?;
+            let known = deepest.map_or(f64::NEG_INFINITY, |d| d.depth_mm - tool_radius);
             let is_apart = approach.distance > 0.0;
             end_of_last = is_apart.then_some((element.end, starts_inside));
             let (depth, center) = if is_apart && !starts_inside {
                 (-approach.distance, approach.on_first)
             } else {
-                solid.deepest(&element, SEARCH_TOLERANCE)
+                solid.deepest(&element, known, SEARCH_TOLERANCE)
             };
             let depth = depth + tool_radius;
             if deepest.is_none_or(|d| depth > d.depth_mm) {

@@ -39,8 +39,9 @@ impl Solid {
 
     /// The deepest point of `element` in the solid and its depth, within `tolerance`.
     ///
-    /// Depth changes by no more than the way, so that an interval whose ends are shallow cannot hide a deep middle.
-    pub(super) fn deepest(&self, element: &Segment, tolerance: f64) -> (f64, Point) {
+    /// Depth changes by no more than the way, so that an interval whose ends are shallow cannot hide a deep middle. What
+    /// is not deeper than `known` is not searched for, and some end of the element returned instead.
+    pub(super) fn deepest(&self, element: &Segment, known: f64, tolerance: f64) -> (f64, Point) {
         let length = element.length();
         let at = |t: f64| {
             let p = element.point_at(t);
@@ -52,7 +53,7 @@ impl Solid {
         let mut evaluations = 0;
         while let Some((t0, d0, t1, d1)) = open.pop() {
             let highest = 0.5 * (d0 + d1 + (t1 - t0) * length);
-            if highest <= best.0 + tolerance || evaluations >= MOST_EVALUATIONS {
+            if highest <= best.0.max(known) + tolerance || evaluations >= MOST_EVALUATIONS {
                 continue;
             }
             evaluations += 1;

@@ -58,8 +58,8 @@ const MIN_JUNCTION_SPEED: f64 = 0.0;
 /// Cosine beyond which GRBL takes a joint as straight or as a full reversal.
 const STRAIGHT_COSINE: f64 = 0.999_999;
 
-/// GRBL splits a circle of any radius into no more segments than this here: a guard against absurd radii.
-const MOST_ARC_SEGMENTS: f64 = 1e6;
+/// An arc is split into no more segments than this: that many are a circle of 100 m, so that absurd ones cost no memory.
+const MOST_ARC_SEGMENTS: f64 = 2e4;
 
 /// One straight move of the planner; speeds in mm/s.
 struct Move {

@@ -175,7 +175,7 @@ fn draw_path(scene: &Scene, depth: f64, sheet: &mut Sheet) {
     let mut rank = 0;
     for (k, elements) in steps.into_iter().enumerate().filter(|(_, s)| !s.is_empty()) {
         rank += 1;
-        let width = 1.3 + 2.4 * (used - rank) as f64 / used as f64;
+        let width = 1.4 + 4.0 * (used - rank) as f64 / used as f64;
         let color = palette::depth(k as f64 / DEPTH_STEPS as f64);
         sheet.canvas.stroke(view.elements(elements).as_ref(), color, width * unit, None);
     }
