@@ -4,5 +4,6 @@ pub mod cam;
 pub mod gcode;
 pub mod io;
 pub mod plane;
+pub mod preview;
 pub mod rolling;
 pub mod units;

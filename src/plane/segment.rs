@@ -109,6 +109,10 @@ pub struct Segment {
     pub link: Link,
 }
 
+/// An arc becomes no more chords than this: beyond it a tolerance is below what `f64` can resolve on its radius, or the
+/// arc is absurd.
+const MOST_CHORDS: f64 = 1e5;
+
 /// The nearest point of a boundary element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
@@ -258,7 +262,7 @@ impl Segment {
         if let Link::Arc(arc) = self.link {
             let sweep = self.sweep();
             let step = if tolerance < arc.radius { 2.0 * (1.0 - tolerance / arc.radius).acos() } else { PI };
-            let count = (sweep / step).ceil().max(1.0);
+            let count = (sweep / step).ceil().clamp(1.0, MOST_CHORDS);
             for k in 1..count as usize {
                 emit(arc.travel(self.start, sweep * k as f64 / count));
             }
