@@ -1,1 +1,3 @@
-//! x
+//! The command line: arguments, commands, reports.
+
+pub mod check;
