@@ -1,15 +1,17 @@
 //! The offset references against the certified references of the shared data.
 //!
-//! A stored closing of a drawing is a fixed point of the closing, and the closing of a stored opening's complement is one as
-//! well: this needs no reader of drawings. Their inputs are held against them where drawings are read.
+//! The countries alone: they are plain polygons, so that this needs no reader of drawings.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use clopen::check::compare;
+use clopen::check::{compare, lost_features};
 use clopen::plane::{Arc, Joint, Link, Point, Region, Ring, Turn, Vector, Vertex};
-use clopen::reference::{self, Operation};
+use clopen::reference::{Operation, arcs, overlay};
 use clopen::units::Radius;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::overlay::FloatOverlay;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/2d/ref")
@@ -50,8 +52,24 @@ fn parse(text: &str) -> Region {
     Region::new(rings)
 }
 
+/// The drawing of a country: one path of straight links, absolute coordinates, drawn even-odd.
+fn parse_country(svg: &str) -> Region {
+    let data = svg.split(" d=\"").nth(1).unwrap().split('"').next().unwrap();
+    let contours: Vec<Vec<[f64; 2]>> = data
+        .split(['M', 'Z'])
+        .map(|ring| {
+            let pairs = ring.split_whitespace().map(|pair| pair.split_once(',').unwrap());
+            pairs.map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()]).collect()
+        })
+        .filter(|ring: &Vec<_>| !ring.is_empty())
+        .collect();
+    let shapes = FloatOverlay::<[f64; 2], i64>::from_subj(&contours).overlay(OverlayRule::Subject, FillRule::EvenOdd);
+    let ring = |c: &Vec<[f64; 2]>| Ring::polygon(c.iter().map(|p| Point::new(p[0], p[1])));
+    Region::new(shapes.iter().flatten().map(ring).collect())
+}
+
 #[test]
-fn stored_results_are_fixed_points() {
+fn countries_agree_with_their_stored_references() {
     let Ok(index) = std::fs::read_to_string(folder().join("index.json")) else {
         println!("skipped: ../shared is absent");
         return;
@@ -61,38 +79,39 @@ fn stored_results_are_fixed_points() {
         return;
     }
     let index: serde_json::Value = serde_json::from_str(&index).unwrap();
-    let (mut compared, mut worst, mut refused) = (0, (0.0, String::new()), Vec::new());
-    for (key, entry) in index.as_object().unwrap() {
-        // Each takes a fraction of a second; the largest would take many.
-        if entry["source"] != "cav-exact" || entry["nv_arcs"].as_u64().unwrap_or(u64::MAX) > 3000 {
-            continue;
-        }
+    let mut compared = 0;
+    for (key, entry) in index.as_object().unwrap().iter().filter(|(key, _)| key.starts_with("country_")) {
+        let input = std::fs::read_to_string(folder().join("..").join(entry["file"].as_str().unwrap())).unwrap();
+        let input = parse_country(&input);
         let unpacked = Command::new("xz").arg("-dc").arg(folder().join(format!("{key}.arcs.xz"))).output().unwrap();
         let stored = parse(&String::from_utf8(unpacked.stdout).unwrap());
-        if stored.is_empty() {
-            continue;
-        }
-        // A little smaller, so that arcs of exactly the radius do not stand on the edge between moving and not.
-        let radius = Radius::new(entry["r"].as_f64().unwrap() * (1.0 - 1e-6)).unwrap();
+        let radius = Radius::new(entry["r"].as_f64().unwrap()).unwrap();
         let operation = if entry["mode"] == "close" { Operation::Close } else { Operation::Open };
-        match reference::closing(&stored, radius, operation) {
-            Ok(reference) => {
-                let report = compare(&stored, &stored, &reference, radius, operation);
-                let error = report.hausdorff.largest_over_r;
-                if error > 1e-7 {
-                    println!("{key}: {error:.2e} ({:?})", reference.method);
-                }
-                if error > worst.0 {
-                    worst = (error, key.clone());
-                }
-                compared += 1;
-            }
-            Err(error) => refused.push(format!("{key}: {error}")),
+        let mut methods = vec![("arcs", arcs::closing as fn(&_, _, _) -> _)];
+        // Exact as well on all of them, but each takes seconds.
+        if key.starts_with("country_vietnam.r2") || std::env::var_os("CLOPEN_ALL_REFERENCES").is_some() {
+            methods.push(("overlay", overlay::closing));
         }
+        for (method, closing) in methods {
+            let start = std::time::Instant::now();
+            let reference = closing(&input, radius, operation).unwrap_or_else(|e| panic!("{key}, {method}: {e}"));
+            let seconds = start.elapsed().as_secs_f64();
+            let report = compare(&input, &stored, &reference, radius, operation);
+            let distance = report.hausdorff.largest_over_r;
+            println!(
+                "{key}, {method}: {distance:.1e} r, certified {:.1e} r, {seconds:.2} s, kept {:.4}",
+                reference.error_bound / radius.get(),
+                report.kept.fraction
+            );
+            // The stored arcs are certified to 1e-6 r, by distances, which displaces narrow crossings by a little more.
+            assert!(distance < 1e-5, "{key}, {method}: {distance:e}: {:?}", report.hausdorff);
+            compared += 1;
+        }
+        let closed = arcs::closing(&input, radius, operation).unwrap().region;
+        let start = std::time::Instant::now();
+        let lost = lost_features(&input, &closed, radius).len();
+        println!("{key}: {lost} lost features in {:.1} ms", start.elapsed().as_secs_f64() * 1e3);
+        assert!(lost > 0, "{key}");
     }
-    println!("{compared} compared, worst {:.2e} r ({}), {} refused", worst.0, worst.1, refused.len());
-    assert!(compared > 60, "{compared}");
-    assert!(refused.len() <= 2, "{}", refused.join("\n"));
-    // The stored arcs meet within 1e-6 r only; at a radius this near to theirs the fillets differ by no more.
-    assert!(worst.0 < 1e-4, "{worst:?}");
+    assert!(compared >= 14, "{compared}");
 }

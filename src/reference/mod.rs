@@ -1,4 +1,4 @@
-//! Closing and opening by offsetting there and back: slow, and independent of [the rolling disk](crate#).
+//! Closing and opening by offsetting there and back: slow, and independent of the rolling disk.
 //!
 //! Two roads lead to a [`Reference`]: true arcs by `cavalier_contours` ([`arcs`]) and the union of swept pieces by
 //! `i_overlay`, whose polygons are then read back as lines and arcs ([`overlay`]). Neither is believed: both results pass
@@ -47,7 +47,8 @@ pub struct Reference {
     pub region: Region,
     /// The largest distance between this boundary and the true one, as found by the certificate: in the units of the
     /// drawing. It is measured in both directions on samples [`SAMPLE_STEP`] radii apart, denser where parts of
-    /// the boundary begin and end, and includes the rounding of the coordinates.
+    /// the boundary begin and end, and includes the rounding of the coordinates. Where two curves of the offset cross at a
+    /// small angle α, their crossing may be displaced by the bound over α.
     pub error_bound: f64,
     /// The radius that the bound holds for: the one asked for, or where that has no certified answer the one that is smaller
     /// by [`NUDGE`]. A gap of exactly 2 r is such a case: by definition the disk fits into it, and by rounding
