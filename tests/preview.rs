@@ -1,7 +1,8 @@
 //! Pictures of a bracket and its program. With `CLOPEN_PICTURES=FOLDER` they are kept for looking at.
 
+use clopen::cam::Program;
 use clopen::cam::{CertifyOptions, certify};
-use clopen::gcode::{Program, read};
+use clopen::gcode::read;
 use clopen::plane::{Arc, Joint, Link, Point, Region, Ring, Turn, Vertex};
 use clopen::preview::{self, Scene};
 
