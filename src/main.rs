@@ -1,3 +1,7 @@
-//! The command.
+//! The command `clopen`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    clopen::cli::main()
+}

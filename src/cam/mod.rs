@@ -30,7 +30,7 @@ mod solid;
 mod stroke;
 #[cfg(test)]
 pub(crate) mod test_shapes;
-pub mod time;
+mod time;
 mod toolpath;
 mod walk;
 
@@ -52,4 +52,5 @@ pub use plan::{PlanError, plan};
 pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
 pub use side::Side;
 pub use solid::Remainder;
+pub use time::{Machine, ProgramTime, estimate};
 pub use toolpath::{Move, MoveKind, Settings, Toolpath};

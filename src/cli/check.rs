@@ -1,12 +1,15 @@
 //! `clopen check IN OUT -r R`: any result against its reference.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 
+use super::input::ReadArgs;
+use super::{ExitStatus, output};
 use crate::check::{Report, compare};
+use crate::io::svg::ReadError;
 use crate::plane::Region;
 use crate::reference::{self, Operation};
 use crate::units::{DrawingScale, Length, Radius};
@@ -38,6 +41,8 @@ pub struct CheckArgs {
     /// How to print the report
     #[arg(long, value_enum, default_value = "text")]
     pub format: FormatArg,
+    #[command(flatten)]
+    reading: ReadArgs,
 }
 
 /// `--op`.
@@ -85,43 +90,37 @@ pub struct Outcome {
     pub passes: bool,
 }
 
-/// A drawing as the check needs it.
-pub struct CheckedDrawing {
-    /// The filled region in user units.
-    pub region: Region,
-    /// Millimetres in a user unit, where the drawing says so.
-    pub mm_per_unit: Option<f64>,
-}
-
 /// The command. An error is exit status 2.
 ///
 /// # Errors
 /// Where a file cannot be read, the radius makes no sense for the drawing, or no reference is certified.
-pub fn run(args: &CheckArgs) -> Result<Outcome> {
-    let input = read_drawing(&args.input)?;
-    let output = read_drawing(&args.output)?;
-    check(args, &input, &output)
-}
-
-/// TO FILL IN when `io::svg` is there: `io::svg::read(&bytes, &ReadOptions::default())`.
-fn read_drawing(path: &Path) -> Result<CheckedDrawing> {
-    bail!("{}: reading drawings is not built in", path.display())
+pub(super) fn run(args: &CheckArgs) -> Result<ExitStatus> {
+    let input = args.reading.read(&args.input)?;
+    let output = match args.reading.read(&args.output) {
+        Ok(drawing) => drawing.region,
+        // A result may well be empty: then nothing is what there is to check.
+        Err(error) if matches!(error.downcast_ref(), Some(ReadError::NothingFilled { .. })) => Region::default(),
+        Err(error) => return Err(error),
+    };
+    let outcome = check(args, &input.region, input.mm_per_unit, &output)?;
+    output::print(&outcome.text);
+    Ok(if outcome.passes { ExitStatus::Done } else { ExitStatus::CheckFailed })
 }
 
 /// The command after its files were read.
 ///
 /// # Errors
 /// As [`run`], but for the files.
-pub fn check(args: &CheckArgs, input: &CheckedDrawing, output: &CheckedDrawing) -> Result<Outcome> {
+fn check(args: &CheckArgs, input: &Region, mm_per_unit: Option<f64>, output: &Region) -> Result<Outcome> {
     if !(args.tolerance >= 0.0 && args.tolerance.is_finite()) {
         bail!("--tolerance {} is no distance: give a number of radii, for example 1e-4", args.tolerance);
     }
-    let scale = DrawingScale { mm_per_unit: input.mm_per_unit, diagonal: input.region.bounds().diagonal() };
+    let scale = DrawingScale { mm_per_unit, diagonal: input.bounds().diagonal() };
     let radius = Radius::new(args.radius.to_user_units(&scale)?).context("--radius")?;
     let operation = args.op.into();
-    let reference = reference::closing(&input.region, radius, operation)
+    let reference = reference::closing(input, radius, operation)
         .with_context(|| format!("{}: no reference", args.input.display()))?;
-    let report = compare(&input.region, &output.region, &reference, radius, operation);
+    let report = compare(input, output, &reference, radius, operation);
     let passes = report.passes(args.tolerance, args.topology == TopologyArg::Keep);
     let text = match args.format {
         FormatArg::Text => lines(&report, args.tolerance, args.topology, passes),
@@ -187,19 +186,13 @@ mod tests {
     use crate::plane::{Point, Ring};
 
     fn args() -> CheckArgs {
-        CheckArgs {
-            input: "in.svg".into(),
-            output: "out.svg".into(),
-            radius: Length::UserUnits(1.0),
-            op: OperationArg::Close,
-            topology: TopologyArg::Merge,
-            tolerance: DEFAULT_TOLERANCE,
-            format: FormatArg::Text,
+        use clap::Parser as _;
+        #[derive(clap::Parser)]
+        struct Typed {
+            #[command(flatten)]
+            args: CheckArgs,
         }
-    }
-
-    fn drawing(region: Region) -> CheckedDrawing {
-        CheckedDrawing { region, mm_per_unit: None }
+        Typed::parse_from(["check", "in.svg", "out.svg", "-r", "1u"]).args
     }
 
     fn l_corner() -> Region {
@@ -210,9 +203,9 @@ mod tests {
     #[test]
     fn a_right_result_passes_and_an_untouched_one_fails() {
         let closed = reference::closing(&l_corner(), Radius::new(1.0).unwrap(), Operation::Close).unwrap().region;
-        let right = check(&args(), &drawing(l_corner()), &drawing(closed)).unwrap();
+        let right = check(&args(), &l_corner(), None, &closed).unwrap();
         assert!(right.passes, "{}", right.text);
-        let untouched = check(&args(), &drawing(l_corner()), &drawing(l_corner())).unwrap();
+        let untouched = check(&args(), &l_corner(), None, &l_corner()).unwrap();
         assert!(
             !untouched.passes && untouched.text.contains("smallest radius       0.000000 r at (3.000000, 3.000000)"),
             "{}",
@@ -223,13 +216,13 @@ mod tests {
     #[test]
     fn json_names_its_units_and_bad_numbers_are_refused() {
         let json = CheckArgs { format: FormatArg::Json, ..args() };
-        let text = check(&json, &drawing(l_corner()), &drawing(l_corner())).unwrap().text;
+        let text = check(&json, &l_corner(), None, &l_corner()).unwrap().text;
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         let distance = value["hausdorff"]["largest_over_r"].as_f64().unwrap();
         assert!((distance - (2f64.sqrt() - 1.0)).abs() < 1e-9, "{distance}");
         let bad = CheckArgs { tolerance: f64::NAN, ..args() };
-        assert!(check(&bad, &drawing(l_corner()), &drawing(l_corner())).is_err());
+        assert!(check(&bad, &l_corner(), None, &l_corner()).is_err());
         let physical = CheckArgs { radius: Length::Millimetres(1.0), ..args() };
-        assert!(check(&physical, &drawing(l_corner()), &drawing(l_corner())).is_err());
+        assert!(check(&physical, &l_corner(), None, &l_corner()).is_err());
     }
 }

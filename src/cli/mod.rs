@@ -1,3 +1,78 @@
-//! The command line: arguments, commands, reports.
+//! The command line: arguments, one file a command, reports. Alone knows clap and terminals.
 
 pub mod check;
+mod close;
+mod input;
+mod lint;
+mod mill;
+mod output;
+mod preview;
+mod report;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Morphological closing and opening of outlines; outlines to milling programs that are checked before anything is cut.
+#[derive(Debug, Parser)]
+#[command(name = "clopen", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Turn the outlines of a drawing into a checked milling program, with a picture and a certificate
+    Mill(Box<mill::MillArgs>),
+    /// Fill what a disk cannot reach from outside: concave corners get the disk's radius, the rest stays
+    Close(close::CloseArgs),
+    /// Remove what a disk cannot reach from inside: convex corners get the disk's radius, the rest stays
+    Open(close::CloseArgs),
+    /// Compare a closed or opened drawing with an independent reference
+    Check(check::CheckArgs),
+    /// Draw a picture of a drawing (SVG) or of a program (anything else)
+    Preview(preview::PreviewArgs),
+    /// Look for what a controller would refuse and what a machine should not do, in anyone's program
+    Lint(lint::LintArgs),
+}
+
+/// How a command ended, for those who run it in a script.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum ExitStatus {
+    /// Done, and every check passed.
+    Done,
+    /// Done, and a check failed.
+    CheckFailed,
+    /// Could not run.
+    CouldNotRun,
+}
+
+impl From<ExitStatus> for ExitCode {
+    fn from(status: ExitStatus) -> ExitCode {
+        ExitCode::from(match status {
+            ExitStatus::Done => 0,
+            ExitStatus::CheckFailed => 1,
+            ExitStatus::CouldNotRun => 2,
+        })
+    }
+}
+
+/// Runs the command that was typed.
+pub fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Mill(args) => mill::run(&args),
+        Command::Close(args) => close::run(&args, close::Operation::Close),
+        Command::Open(args) => close::run(&args, close::Operation::Open),
+        Command::Check(args) => check::run(&args),
+        Command::Preview(args) => preview::run(&args),
+        Command::Lint(args) => lint::run(&args),
+    };
+    match result {
+        Ok(status) => status.into(),
+        Err(error) => {
+            eprintln!("clopen: {error:#}");
+            ExitStatus::CouldNotRun.into()
+        }
+    }
+}

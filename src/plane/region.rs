@@ -64,6 +64,11 @@ impl Region {
         Region { rings: self.rings.iter().map(|r| r.translated(by)).collect() }
     }
 
+    /// The region with every length multiplied by `factor`, above zero; by 1 exactly itself.
+    pub fn scaled(&self, factor: f64) -> Region {
+        Region { rings: self.rings.iter().map(|r| r.scaled(factor)).collect() }
+    }
+
     /// Whether `p` lies in the solid; unspecified on the boundary itself. Linear in the number of vertices.
     pub fn contains(&self, p: Point) -> bool {
         self.rings.iter().map(|r| r.winding_number(p)).sum::<i32>() > 0

@@ -143,6 +143,19 @@ impl Ring {
         Ring { vertices: vertices.collect() }
     }
 
+    /// The ring with every length multiplied by `factor`, above zero.
+    pub fn scaled(&self, factor: f64) -> Ring {
+        let vertices = self.vertices.iter().map(|v| super::Vertex {
+            point: v.point * factor,
+            link: match v.link {
+                Link::Line => Link::Line,
+                Link::Arc(a) => Link::Arc(super::Arc { center: a.center * factor, radius: a.radius * factor, ..a }),
+            },
+            ..*v
+        });
+        Ring { vertices: vertices.collect() }
+    }
+
     /// How often the ring runs counterclockwise around `p`. Unspecified for a point on the ring itself.
     pub fn winding_number(&self, p: Point) -> i32 {
         self.segments().map(|s| s.ray_crossings(p)).sum()

@@ -1,0 +1,110 @@
+//! Reading what a command works on.
+
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result, bail};
+use clap::{Args, ValueEnum};
+
+use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, ReadOptions, Strokes};
+use crate::units::{DrawingScale, Length};
+
+/// The bytes of a file, or of standard input where the name is `-`.
+///
+/// # Errors
+/// Names the file.
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
+    if path == Path::new("-") {
+        let mut bytes = Vec::new();
+        std::io::stdin().lock().read_to_end(&mut bytes).context("standard input")?;
+        return Ok(bytes);
+    }
+    if path.is_dir() {
+        bail!("{}: this is a folder; name a file in it", path.display());
+    }
+    std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))
+}
+
+/// The text of a program.
+///
+/// # Errors
+/// Names the file.
+pub(super) fn read_text(path: &Path) -> Result<String> {
+    let bytes = read_bytes(path)?;
+    String::from_utf8(bytes).map_err(|e| {
+        let at = e.utf8_error().valid_up_to();
+        anyhow::anyhow!("{}: this is not text (byte {at}); name a G-code program", path.display())
+    })
+}
+
+/// How a drawing is read.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Reading")]
+pub(super) struct ReadArgs {
+    /// User units in an inch, for a drawing that says no physical size (SVG editors: 96, 90 or 72) or a wrong one
+    #[arg(long, value_name = "NUMBER")]
+    dpi: Option<f64>,
+    /// Scale the drawing so that its filled part is this wide
+    #[arg(long, value_name = "LENGTH")]
+    width: Option<Length>,
+    /// Take strokes as areas
+    #[arg(long)]
+    strokes: bool,
+    /// A font file to set text in, before those of the system; may be given more than once
+    #[arg(long = "font", value_name = "FILE")]
+    fonts: Vec<PathBuf>,
+    /// How far chords may stray from curves that are no circles, in parts of the larger side of the largest shape
+    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_FLATTEN)]
+    flatten: f64,
+    /// What becomes of circles and arcs
+    #[arg(long, value_enum, default_value_t = CurvesArg::Arcs)]
+    curves: CurvesArg,
+}
+
+/// `--curves`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum CurvesArg {
+    /// They stay true arcs, and smooth curves stay smooth
+    Arcs,
+    /// Every curve becomes a polygon with real corners, for comparison with tools that know polygons only
+    Polygon,
+}
+
+impl ReadArgs {
+    /// Reads a drawing and says on standard error what of it was left out.
+    ///
+    /// # Errors
+    /// Names the file, and where in it the trouble is.
+    pub(super) fn read(&self, path: &Path) -> Result<Drawing> {
+        let drawing = read_drawing(path, &self.options()?)?;
+        for warning in &drawing.warnings {
+            eprintln!("clopen: {}: {warning}", path.display());
+        }
+        Ok(drawing)
+    }
+
+    fn options(&self) -> Result<ReadOptions> {
+        let no_drawing = DrawingScale { mm_per_unit: None, diagonal: 0.0 };
+        let width_mm = self.width.map(|w| w.to_millimetres(&no_drawing)).transpose();
+        Ok(ReadOptions {
+            flatten: self.flatten,
+            curves: match self.curves {
+                CurvesArg::Arcs => Curves::Arcs,
+                CurvesArg::Polygon => Curves::Polygon,
+            },
+            strokes: if self.strokes { Strokes::Areas } else { Strokes::Ignore },
+            dpi: self.dpi,
+            width_mm: width_mm.map_err(|_| anyhow::anyhow!("--width needs a physical length, for example 100mm"))?,
+            fonts: self.fonts.clone(),
+        })
+    }
+}
+
+/// Reads a drawing.
+///
+/// # Errors
+/// Names the file, and where in it the trouble is.
+pub(super) fn read_drawing(path: &Path, options: &ReadOptions) -> Result<Drawing> {
+    let bytes = read_bytes(path)?;
+    svg::read(&bytes, options).with_context(|| path.display().to_string())
+}

@@ -1,0 +1,65 @@
+//! `clopen lint FILE.nc`: anyone's program.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+
+use super::ExitStatus;
+use super::check::FormatArg;
+use super::{input, output};
+use crate::gcode::{Controller, LintOptions, Severity, lint};
+
+/// The arguments.
+#[derive(Clone, Debug, Args)]
+pub(super) struct LintArgs {
+    /// The program; - is standard input
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Whose rules to apply; our own about safe motion always apply
+    #[arg(long, value_enum, default_value_t = ControllerArg::Both)]
+    controller: ControllerArg,
+    /// z of the top of the stock, in millimetres
+    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    stock_top: f64,
+    /// How to print the findings
+    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
+    format: FormatArg,
+}
+
+/// `--controller`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ControllerArg {
+    /// GRBL 1.1
+    Grbl,
+    /// LinuxCNC 2.9
+    Linuxcnc,
+    /// A program that is to run on either
+    Both,
+}
+
+/// Runs the command: exit status 1 where an error is found.
+///
+/// # Errors
+/// Where the file cannot be read.
+pub(super) fn run(args: &LintArgs) -> Result<ExitStatus> {
+    let text = input::read_text(&args.file)?;
+    let controller = match args.controller {
+        ControllerArg::Grbl => Controller::Grbl,
+        ControllerArg::Linuxcnc => Controller::LinuxCnc,
+        ControllerArg::Both => Controller::Both,
+    };
+    let findings = lint(&text, &LintOptions { controller, stock_top: args.stock_top });
+    match args.format {
+        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&findings)? + "\n")),
+        FormatArg::Text => {
+            let lines = findings.iter().map(|f| {
+                let severity = format!("{:?}", f.severity).to_lowercase();
+                format!("{}:{}: {severity}: {}\n", args.file.display(), f.line, f.message)
+            });
+            output::print(&lines.collect::<String>());
+        }
+    }
+    let failed = findings.iter().any(|f| f.severity == Severity::Error);
+    Ok(if failed { ExitStatus::CheckFailed } else { ExitStatus::Done })
+}

@@ -1,0 +1,335 @@
+//! `clopen mill`: outlines to a program that was read back and checked before anyone is told that it is there.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result, bail};
+use clap::{Args, ValueEnum};
+
+use super::check::FormatArg;
+use super::close::TopologyArg;
+use super::input::ReadArgs;
+use super::report::{MillReport, Verdict};
+use super::{ExitStatus, input, output};
+use crate::cam::{
+    self, Certificate, CertifyOptions, Direction, Entry, Job, JobFile, Machine, Origin, Program, Remainder, Side,
+    Toolpath, TypedPathRadius,
+};
+use crate::check::{LostFeature, lost_features};
+use crate::gcode::{self, Arcs, Controller, Dialect, Finding, LintOptions, Units, WriteOptions};
+use crate::io::svg::Drawing;
+use crate::plane::Region;
+use crate::preview::{self, DEFAULT_SIZE, Scene};
+use crate::rolling;
+use crate::units::{Length, Radius, Speed};
+
+/// The arguments.
+#[derive(Clone, Debug, Args)]
+pub(super) struct MillArgs {
+    /// The drawing, SVG; - is standard input
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// Where the program goes; unless given, the drawing's name with .nc in the current folder
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// A file of job settings (TOML); flags beat the file, the file beats defaults
+    #[arg(long, value_name = "FILE")]
+    job: Option<PathBuf>,
+    /// Exit with 0 although features of the drawing are lost
+    #[arg(long)]
+    accept_losses: bool,
+    /// Make no picture
+    #[arg(long)]
+    no_preview: bool,
+    /// How to print the certificate
+    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
+    format: FormatArg,
+    #[command(flatten)]
+    cut: CutArgs,
+    #[command(flatten)]
+    program: ProgramArgs,
+    #[command(flatten)]
+    reading: ReadArgs,
+}
+
+/// What to cut and how. Defaults: see `--help`.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Cutting")]
+struct CutArgs {
+    /// Diameter of the tool [default: 3.175mm]
+    #[arg(long, value_name = "LENGTH")]
+    tool_diameter: Option<Length>,
+    /// Depth of the cut [default: 3mm]
+    #[arg(long, value_name = "LENGTH")]
+    depth: Option<Length>,
+    /// Most that a pass may go deeper than the one before [default: 1mm]
+    #[arg(long, value_name = "LENGTH")]
+    depth_per_pass: Option<Length>,
+    /// Feed along the path [default: 1000mm/min]
+    #[arg(long, value_name = "SPEED")]
+    feed: Option<Speed>,
+    /// Feed of ramps and plunges [default: 300mm/min]
+    #[arg(long, value_name = "SPEED")]
+    plunge_feed: Option<Speed>,
+    /// Spindle speed in revolutions a minute [default: 18000]
+    #[arg(long, value_name = "RPM")]
+    spindle_speed: Option<f64>,
+    /// Seconds to wait for the spindle [default: 3]
+    #[arg(long, value_name = "SECONDS")]
+    dwell: Option<f64>,
+    /// z of travel [default: 5mm above the top of the stock]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    safe_height: Option<Length>,
+    /// z of the top of the stock [default: 0]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    stock_top: Option<Length>,
+    /// What becomes x = 0, y = 0: corner or center of the part, or the drawing's own origin [default: corner]
+    #[arg(long, value_name = "PLACE")]
+    origin: Option<Origin>,
+    /// climb or conventional [default: climb]
+    #[arg(long, value_name = "WAY")]
+    direction: Option<Direction>,
+    /// outside of parts and inside of holes; inside; or on the outline [default: outside]
+    #[arg(long, value_name = "SIDE")]
+    side: Option<Side>,
+    /// Smallest radius of the path in inside corners: a length, or auto for feed squared over acceleration
+    /// [default: auto]
+    #[arg(long, value_name = "LENGTH")]
+    path_radius: Option<TypedPathRadius>,
+    /// Acceleration of the machine in mm/s² [default: 500]
+    #[arg(long, value_name = "NUMBER")]
+    acceleration: Option<f64>,
+    /// ramp or plunge [default: ramp]
+    #[arg(long, value_name = "WAY")]
+    entry: Option<Entry>,
+    /// What happens where parts come nearer to each other than the tool
+    #[arg(long, value_enum, default_value_t = TopologyArg::Merge)]
+    topology: TopologyArg,
+}
+
+/// How the program is written.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Program")]
+struct ProgramArgs {
+    /// The controller's dialect
+    #[arg(long, value_enum, default_value_t = DialectArg::Grbl)]
+    dialect: DialectArg,
+    /// Lines instead of arcs, for machines without them
+    #[arg(long)]
+    no_arcs: bool,
+    /// Write inches (G20) instead of millimetres
+    #[arg(long)]
+    inches: bool,
+}
+
+/// `--dialect`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum DialectArg {
+    /// GRBL 1.1 and those that follow it
+    Grbl,
+    /// LinuxCNC 2.8 and later
+    Linuxcnc,
+}
+
+impl DialectArg {
+    fn dialect(self) -> Dialect {
+        match self {
+            DialectArg::Grbl => gcode::GRBL,
+            DialectArg::Linuxcnc => gcode::LINUXCNC,
+        }
+    }
+
+    fn controller(self) -> Controller {
+        match self {
+            DialectArg::Grbl => Controller::Grbl,
+            DialectArg::Linuxcnc => Controller::LinuxCnc,
+        }
+    }
+}
+
+impl CutArgs {
+    fn typed(&self) -> JobFile {
+        JobFile {
+            tool_diameter: self.tool_diameter,
+            depth: self.depth,
+            depth_per_pass: self.depth_per_pass,
+            feed: self.feed,
+            plunge_feed: self.plunge_feed,
+            spindle_speed: self.spindle_speed,
+            dwell: self.dwell,
+            safe_height: self.safe_height,
+            stock_top: self.stock_top,
+            origin: self.origin,
+            direction: self.direction,
+            side: self.side,
+            path_radius: self.path_radius,
+            acceleration: self.acceleration,
+            entry: self.entry,
+        }
+    }
+}
+
+/// The work as far as the geometry goes, in millimetres and in the machine's coordinates.
+struct Plan {
+    part: Region,
+    /// The intended boundary of what remains, with the drawing's solid on its left.
+    kept: Region,
+    toolpath: Toolpath,
+    lost: Vec<LostFeature>,
+    contradictions: usize,
+}
+
+/// The program, and what it was found to do.
+struct Checked {
+    text: String,
+    program: Program,
+    findings: Vec<Finding>,
+    certificate: Certificate,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the drawing or the job makes no sense, or a file cannot be written.
+pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
+    let name = args.input.display();
+    let drawing = args.reading.read(&args.input)?;
+    let Some(mm_per_unit) = drawing.mm_per_unit else {
+        bail!(
+            "{name}: the drawing has no physical size: say how many of its units make an inch (--dpi 96) or how wide \
+             the part is (--width 100mm)"
+        );
+    };
+    let job = read_job(args, &drawing)?;
+    let plan = make_plan(args, &drawing.region.scaled(mm_per_unit), &job).with_context(|| name.to_string())?;
+    let checked = check(args, &job, &plan)?;
+
+    let target = target(args);
+    output::write(&target, checked.text.as_bytes())?;
+    let mut written = vec![target.clone()];
+    if !args.no_preview && target != Path::new("-") {
+        let picture = target.with_extension("png");
+        output::write(&picture, &draw(&job, &plan, &checked)?)?;
+        written.push(picture);
+    }
+    let report = MillReport {
+        input: &args.input,
+        job: &job,
+        dialect: args.program.dialect.dialect().name,
+        part: &plan.part,
+        certificate: &checked.certificate,
+        lost: &plan.lost,
+        findings: &checked.findings,
+        contradictions: plan.contradictions,
+        accept_losses: args.accept_losses,
+        written: &written,
+    };
+    let text = match args.format {
+        FormatArg::Text => report.text(),
+        FormatArg::Json => report.json()?,
+    };
+    // Where the program itself is on standard output, the certificate must not be.
+    if target == Path::new("-") {
+        eprint!("{text}")
+    } else {
+        output::print(&text)
+    }
+    Ok(match report.verdict() {
+        Verdict::Good => ExitStatus::Done,
+        Verdict::Failed => ExitStatus::CheckFailed,
+    })
+}
+
+fn read_job(args: &MillArgs, drawing: &Drawing) -> Result<Job> {
+    let mut typed = args.cut.typed();
+    if let Some(path) = &args.job {
+        let file: JobFile = input::read_text(path)?.parse().with_context(|| path.display().to_string())?;
+        typed = typed.over(file);
+    }
+    Ok(typed.resolve(&drawing.scale())?)
+}
+
+/// Closes what stays by the tool, and plans the way around it.
+fn make_plan(args: &MillArgs, part: &Region, job: &Job) -> Result<Plan> {
+    let stays = job.side.kept_material(part);
+    let radius = job.closing_radius();
+    // On the outline with sharp turns allowed nothing is closed.
+    let (closed, contradictions) = if radius > 0.0 {
+        let outcome = rolling::close(&stays, Radius::new(radius)?, args.cut.topology.into());
+        (outcome.region, outcome.contradictions)
+    } else {
+        (stays, 0)
+    };
+    let toolpath = cam::plan(job, part, &closed)?;
+    // From here on in the machine's coordinates, which are those of the certificate and of the picture.
+    let part = part.translated(toolpath.translation);
+    let kept = match job.side {
+        Side::Outside | Side::On => closed,
+        Side::Inside => closed.reversed(),
+    }
+    .translated(toolpath.translation);
+    let lost = if radius > 0.0 { lost_features(&part, &kept, Radius::new(radius)?) } else { vec![] };
+    Ok(Plan { part, kept, toolpath, lost, contradictions })
+}
+
+/// Writes the program, and from here on believes only what it says.
+fn check(args: &MillArgs, job: &Job, plan: &Plan) -> Result<Checked> {
+    let dialect = args.program.dialect.dialect();
+    let options = WriteOptions {
+        units: if args.program.inches { Units::Inches } else { Units::Millimetres },
+        arcs: if args.program.no_arcs { Arcs::Lines } else { Arcs::Arcs },
+    };
+    let text = gcode::write(&plan.toolpath, &header(args, job, plan), &dialect, options)?;
+    let findings =
+        gcode::lint(&text, &LintOptions { controller: args.program.dialect.controller(), stock_top: job.stock_top });
+    let program = gcode::read(&text).context("the program cannot be read back; please report this")?;
+    let machine = Machine { acceleration: [job.acceleration; 3], ..Machine::default() };
+    let certificate = cam::certify(
+        &program,
+        &plan.part,
+        &plan.kept,
+        &CertifyOptions {
+            remainder: match job.side {
+                Side::Outside | Side::On => Remainder::Inside,
+                Side::Inside => Remainder::Outside,
+            },
+            stock_top: job.stock_top,
+            floor: Some(job.stock_top - job.depth),
+            machine,
+            ..CertifyOptions::new(job.offset_distance())
+        },
+    );
+    Ok(Checked { text, program, findings, certificate })
+}
+
+/// The settings that stand at the top of the program.
+fn header(args: &MillArgs, job: &Job, plan: &Plan) -> Vec<String> {
+    let bounds = plan.part.bounds();
+    let mut lines = vec![
+        format!("clopen {}", env!("CARGO_PKG_VERSION")),
+        format!("drawing {}", args.input.file_name().map_or("-".into(), |n| n.to_string_lossy().into_owned())),
+        format!("part {:.3} x {:.3} mm", bounds.width(), bounds.height()),
+    ];
+    lines.extend(job.summary());
+    lines.push(format!("closing radius {:.4} mm", job.closing_radius()));
+    lines
+}
+
+fn draw(job: &Job, plan: &Plan, checked: &Checked) -> Result<Vec<u8>> {
+    let scene = Scene {
+        program: &checked.program,
+        part: Some(&plan.part),
+        kept: Some(&plan.kept),
+        uncut: Some(&checked.certificate.uncut),
+        tool_radius: Some(0.5 * job.tool_diameter),
+        stock_top: job.stock_top,
+    };
+    preview::program(&scene, DEFAULT_SIZE).context("the picture cannot be drawn; --no-preview leaves it out")
+}
+
+fn target(args: &MillArgs) -> PathBuf {
+    if let Some(target) = &args.output {
+        return target.clone();
+    }
+    let stem = args.input.file_stem().filter(|_| args.input != Path::new("-"));
+    Path::new(stem.unwrap_or("part".as_ref())).with_extension("nc")
+}

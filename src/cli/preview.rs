@@ -1,0 +1,75 @@
+//! `clopen preview FILE -o PICTURE.png`.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result};
+use clap::Args;
+
+use super::ExitStatus;
+use super::input::{self, ReadArgs};
+use super::output;
+use crate::gcode;
+use crate::preview::{self, DEFAULT_SIZE, Scene};
+use crate::units::{DrawingScale, Length};
+
+/// The arguments.
+#[derive(Clone, Debug, Args)]
+pub(super) struct PreviewArgs {
+    /// A drawing (.svg) or a program
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Where the picture goes, PNG; beside the file unless given
+    #[arg(short, long, value_name = "PICTURE")]
+    output: Option<PathBuf>,
+    /// Pixels on the long side
+    #[arg(long, value_name = "PIXELS", default_value_t = DEFAULT_SIZE)]
+    size: u32,
+    /// Diameter of the tool, for a program that does not say it
+    #[arg(long, value_name = "LENGTH")]
+    tool_diameter: Option<Length>,
+    /// z of the top of the stock, in millimetres, for a program
+    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    stock_top: f64,
+    #[command(flatten)]
+    reading: ReadArgs,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the file cannot be read or the picture not written.
+pub(super) fn run(args: &PreviewArgs) -> Result<ExitStatus> {
+    let is_svg = args.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
+    let picture = if is_svg { drawing(args)? } else { program(args)? };
+    let target = args.output.clone().unwrap_or_else(|| beside(&args.file));
+    output::write(&target, &picture)?;
+    if target != Path::new("-") {
+        eprintln!("wrote {}", target.display());
+    }
+    Ok(ExitStatus::Done)
+}
+
+fn drawing(args: &PreviewArgs) -> Result<Vec<u8>> {
+    let drawing = args.reading.read(&args.file)?;
+    let (region, unit) = match drawing.mm_per_unit {
+        Some(mm) => (drawing.region.scaled(mm), "mm"),
+        None => (drawing.region, ""),
+    };
+    preview::outline(&region, None, unit, args.size).with_context(|| args.file.display().to_string())
+}
+
+fn program(args: &PreviewArgs) -> Result<Vec<u8>> {
+    let text = input::read_text(&args.file)?;
+    let name = || args.file.display().to_string();
+    let program = gcode::read(&text).with_context(name)?;
+    let no_drawing = DrawingScale { mm_per_unit: None, diagonal: 0.0 };
+    let typed = args.tool_diameter.map(|d| d.to_millimetres(&no_drawing)).transpose().context("--tool-diameter")?;
+    let diameter = typed.or(program.tool_diameter());
+    let scene = Scene { tool_radius: diameter.map(|d| 0.5 * d), stock_top: args.stock_top, ..Scene::new(&program) };
+    preview::program(&scene, args.size).with_context(name)
+}
+
+/// `part.nc` → `part.png`, in the current folder for standard input.
+fn beside(file: &Path) -> PathBuf {
+    if file == Path::new("-") { PathBuf::from("preview.png") } else { file.with_extension("png") }
+}
