@@ -301,7 +301,13 @@ impl Segment {
                 if spoke.norm_squared() >= arc.radius * arc.radius {
                     return chord;
                 }
-                let side = (self.end - self.start).perp(&(p - self.start));
+                let chord_direction = self.end - self.start;
+                let mut side = chord_direction.perp(&(p - self.start));
+                if side == 0.0 {
+                    // On the chord: where the crossing rule above takes the point to be, a little to the right, and
+                    // on a level chord a little above.
+                    side = if chord_direction.y != 0.0 { -chord_direction.y } else { chord_direction.x };
+                }
                 match arc.turn {
                     // Counterclockwise: the circular segment lies right of the chord.
                     Turn::Left if side < 0.0 => chord + 1,
@@ -309,6 +315,31 @@ impl Segment {
                     _ => chord,
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Point, Ring};
+
+    #[test]
+    fn a_point_on_the_chord_of_an_arc_is_on_one_side_of_it() {
+        let circle = Ring::circle(Point::new(1.0, 2.0), 2.0);
+        for offset in [0.0, 0.5, -0.7] {
+            for turn in 0..4 {
+                // The chords of the four quarters: diagonal. Two halves have chords through the centre.
+                let mut halves = circle.clone();
+                halves.vertices.rotate_left(turn);
+                halves.vertices = vec![halves.vertices[0], halves.vertices[2]];
+                let along = (halves.vertices[1].point - halves.vertices[0].point) * (0.25 * offset);
+                let p = Point::new(1.0, 2.0) + along;
+                assert_eq!(halves.winding_number(p), 1, "{p} turn {turn}");
+                assert_eq!(halves.reversed().winding_number(p), -1, "{p} turn {turn}");
+            }
+        }
+        for v in [Point::new(2.0, 3.0), Point::new(0.0, 3.0), Point::new(0.0, 1.0), Point::new(2.0, 1.0)] {
+            assert_eq!(circle.winding_number(v), 1, "{v}");
         }
     }
 }
