@@ -13,8 +13,8 @@ use i_overlay::float::single::SingleFloatOverlay;
 
 use super::motion::{MotionKind, Program};
 use super::solid::{Remainder, Solid};
-use super::stroke::{Polygon, Stroke};
-use crate::plane::{Bounds, Point, Region};
+use super::stroke::{Polygon, Stroke, joined_lines};
+use crate::plane::{Bounds, Point, Region, Segment};
 
 /// Thickness of the skin in millimetres: a few times what three decimals of a millimetre round away.
 const SKIN: f64 = 0.004;
@@ -24,6 +24,9 @@ pub const LEAST_UNCUT_DEPTH: f64 = 0.012;
 
 /// Chord error of the overlay as a fraction of the tool's radius.
 const RELATIVE_FLATTENING: f64 = 1e-4;
+
+/// Lines whose ends are this near to one line are taken as one, in millimetres: half of what three decimals round away.
+const STRAIGHTNESS: f64 = 5e-4;
 
 /// Motions this much above the floor, in millimetres, still reach it.
 const FLOOR_ROUNDING: f64 = 0.005;
@@ -59,27 +62,33 @@ pub struct UncutPlace {
 ///
 /// `floor` is z in millimetres; motions above it leave material below them and do not count.
 pub fn uncut(program: &Program, part: &Region, remainder: Remainder, tool_radius: f64, floor: f64) -> Uncut {
-    let paths = paths_at_floor(program, floor, tool_radius * RELATIVE_FLATTENING);
+    let paths = paths_at_floor(program, floor);
     if part.is_empty() || paths.is_empty() || tool_radius <= 0.0 {
         return Uncut::default();
     }
-    let reach = paths.iter().flatten().copied();
-    let frame = part.bounds().union(Bounds::of_points(reach)).inflated(4.0 * tool_radius);
+    let reach = paths.iter().flatten().fold(part.bounds(), |b, s| b.union(s.bounds()));
+    let frame = reach.inflated(4.0 * tool_radius);
     let stroke = Stroke { radius: tool_radius, tolerance: tool_radius * RELATIVE_FLATTENING };
-    let mut cut: Vec<Polygon> = paths.iter().flat_map(|path| stroke.rings(path)).collect();
-    let skin = Stroke { radius: SKIN, tolerance: 0.1 * SKIN };
-    let rings: Vec<Vec<Point>> = part.rings.iter().map(|r| r.flatten(0.1 * SKIN)).collect();
-    for ring in &rings {
-        let closed: Vec<Point> = ring.iter().chain(ring.first()).copied().collect();
-        cut.extend(skin.rings(&closed));
-    }
-    let coordinates = |ring: &Vec<Point>| ring.iter().map(|p| [p.x, p.y]).collect::<Polygon>();
-    match remainder {
-        Remainder::Inside => cut.extend(rings.iter().map(coordinates)),
-        Remainder::Outside => {
-            cut.push(rectangle(frame));
-            cut.extend(rings.iter().map(|ring| coordinates(ring).into_iter().rev().collect::<Polygon>()));
+    let mut cut = Vec::new();
+    for path in &paths {
+        match path.as_slice() {
+            // A plunge.
+            [point] if point.start == point.end => cut.push(stroke.disk(point.start)),
+            _ => cut.extend(stroke.rings(&joined_lines(path, STRAIGHTNESS))),
         }
+    }
+    // The part with its skin.
+    let skin = Stroke { radius: SKIN, tolerance: 0.1 * SKIN };
+    if remainder == Remainder::Outside {
+        cut.push(rectangle(frame));
+    }
+    for ring in &part.rings {
+        let solid_on_the_left = match remainder {
+            Remainder::Inside => ring.segments().collect(),
+            Remainder::Outside => ring.reversed().segments().collect::<Vec<_>>(),
+        };
+        let has_length: Vec<Segment> = solid_on_the_left.into_iter().filter(|s| s.length() > 0.0).collect();
+        cut.push(skin.closed_side(&has_length));
     }
     let left = vec![rectangle(frame)].overlay_as::<i64>(&cut, OverlayRule::Difference, FillRule::NonZero);
     let solid = Solid::new(part, remainder);
@@ -102,38 +111,33 @@ pub fn uncut(program: &Program, part: &Region, remainder: Remainder, tool_radius
     result
 }
 
-/// The paths of all motions at the floor, joined where they follow each other; each trace once.
-fn paths_at_floor(program: &Program, floor: f64, tolerance: f64) -> Vec<Vec<Point>> {
+/// The paths of all motions at the floor, joined where they follow each other; each trace once. A plunge is a line
+/// without length.
+fn paths_at_floor(program: &Program, floor: f64) -> Vec<Vec<Segment>> {
     let mut seen = HashSet::new();
-    let mut paths: Vec<Vec<Point>> = Vec::new();
+    let mut paths: Vec<Vec<Segment>> = Vec::new();
     let mut is_open = false;
     for motion in &program.motions {
         if matches!(motion.kind, MotionKind::Dwell { .. }) {
             continue;
         }
-        let is_plunge = motion.trace().next().is_none();
-        let lowest_that_counts = if is_plunge { motion.to.z } else { motion.from.z.max(motion.to.z) };
+        let plunge = motion.trace().next().is_none().then(|| Segment::line(motion.to.xy(), motion.to.xy()));
+        let lowest_that_counts = if plunge.is_some() { motion.to.z } else { motion.from.z.max(motion.to.z) };
         if lowest_that_counts > floor + FLOOR_ROUNDING {
             is_open = false;
             continue;
         }
-        if is_plunge && !is_open {
-            paths.push(vec![motion.to.xy()]);
-            is_open = true;
-        }
-        for element in motion.trace() {
+        for element in motion.trace().chain(plunge) {
             let key = [element.start.x, element.start.y, element.end.x, element.end.y, element.sweep()];
             if !seen.insert(key.map(f64::to_bits)) {
                 is_open = false;
                 continue;
             }
-            if !is_open {
-                paths.push(vec![element.start]);
-                is_open = true;
+            match paths.last_mut().filter(|_| is_open) {
+                Some(path) => path.push(element),
+                None => paths.push(vec![element]),
             }
-            // Proof of a last path: one was pushed whenever none is open.
-            let path = paths.last_mut().expect("a path is open");
-            element.flatten(tolerance, |p| path.push(p));
+            is_open = true;
         }
     }
     paths

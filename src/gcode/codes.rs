@@ -41,7 +41,7 @@ pub(super) fn support(is_g: bool, tenths: u32) -> Support {
         false => {
             let whole = tenths / 10;
             let in_a_run = LINUXCNC_M.iter().any(|&(first, last)| (first..=last).contains(&whole));
-            (GRBL_M.contains(&tenths), tenths % 10 == 0 && in_a_run)
+            (GRBL_M.contains(&tenths), tenths.is_multiple_of(10) && in_a_run)
         }
     };
     match () {

@@ -321,7 +321,8 @@ impl Interpreter {
         let mode = self.motion;
         let is_arc = matches!(mode, Some(MotionMode::Arc(_)));
         let has_center = ['I', 'J', 'K', 'R'].iter().any(|&l| block.value(l).is_some());
-        if !has_axes && !(is_arc && has_center) {
+        let is_motion = has_axes || (is_arc && has_center);
+        if !is_motion {
             return;
         }
         self.find_missing(mode);

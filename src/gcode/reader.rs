@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn numbers_keep_more_digits_than_single_precision() {
-        assert_eq!(ends("G21 G90\nG0 Z1234.5678901")[0].z, 1234.567_890_1);
+        assert_eq!(ends("G21 G90\nG0 Z1234.5678901")[0].z, 1_234.567_890_1);
     }
 
     #[test]

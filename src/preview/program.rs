@@ -111,7 +111,7 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
         add(Sample::Fill(palette::PART, None), format!("part {} x {} mm", short(b.width()), short(b.height())));
         add(Sample::Line(palette::KEPT, 1.5 * unit), "outline".to_owned());
     }
-    if scene.kept.is_some() {
+    if scene.kept.is_some_and(|kept| !split_moved(kept, scene.part, SAME_BOUNDARY).1.is_empty()) {
         add(Sample::Line(palette::MOVED, 2.0 * unit), "rounded".to_owned());
     }
     if let Some(uncut) = scene.uncut.filter(|u| !u.places.is_empty()) {
@@ -160,6 +160,12 @@ fn draw_uncut(scene: &Scene, sheet: &mut Sheet) {
     }
 }
 
+/// Width of the line of the first of many passes, in the picture's units.
+const WIDEST_LINE: f64 = 5.4;
+
+/// A swath is at least this many times as wide as the widest line on it.
+const SWATH_TO_LINE: f64 = 3.0;
+
 /// The path of the tool's centre: deeper passes darker and thinner, above the shallower ones, so that all are seen.
 fn draw_path(scene: &Scene, depth: f64, sheet: &mut Sheet) {
     let view = sheet.view;
@@ -171,11 +177,14 @@ fn draw_path(scene: &Scene, depth: f64, sheet: &mut Sheet) {
         let t = if t.is_finite() { t } else { 0.0 };
         steps[(t * DEPTH_STEPS as f64).round() as usize].extend(motion.trace());
     }
+    // Lines must not hide the swath of a small tool.
+    let swath = scene.tool_radius.map_or(f64::INFINITY, |r| 2.0 * r * view.scale);
+    let thin = (swath / (WIDEST_LINE * SWATH_TO_LINE * unit)).clamp(0.3, 1.0);
     let used = steps.iter().filter(|s| !s.is_empty()).count();
     let mut rank = 0;
     for (k, elements) in steps.into_iter().enumerate().filter(|(_, s)| !s.is_empty()) {
         rank += 1;
-        let width = 1.4 + 4.0 * (used - rank) as f64 / used as f64;
+        let width = thin * (1.4 + (WIDEST_LINE - 1.4) * (used - rank) as f64 / used as f64);
         let color = palette::depth(k as f64 / DEPTH_STEPS as f64);
         sheet.canvas.stroke(view.elements(elements).as_ref(), color, width * unit, None);
     }
