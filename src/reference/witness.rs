@@ -17,6 +17,10 @@ use crate::units::Radius;
 /// coordinates at 1e6 radii from the origin stays below it.
 pub const RADIUS_BAND: f64 = 1e-9;
 
+/// How near to the boundary of the closing a point counts as on it, over the radius: what a change of the radius by
+/// [`RADIUS_BAND`] moves the fillet of a sharp corner.
+const DEPTH_BAND: f64 = 4.0 * RADIUS_BAND;
+
 /// By how much a candidate centre may miss its distance by rounding, over the radius: above the rounding of
 /// drawings of a thousand radii.
 const CANDIDATE_ROUNDING: f64 = 1e-11;
@@ -32,7 +36,7 @@ pub enum Membership {
     Inside,
     /// Outside, even with a slightly different radius.
     Outside,
-    /// A change of the radius by [`RADIUS_BAND`] decides.
+    /// On the boundary, or a change of the radius by [`RADIUS_BAND`] decides.
     WithinTolerance,
 }
 
@@ -74,11 +78,10 @@ impl Witness {
 
     /// Whether `p` lies in the closing or opening.
     pub fn membership(&self, p: Point) -> Membership {
-        let deep = |r: f64| self.unit_depth(self.frame.point_to_unit(p), r) >= 0.0;
         // The closing grows with the radius: in it with the smaller one means in it.
-        let in_fill = if deep(1.0 - RADIUS_BAND) {
+        let in_fill = if self.depth_for(p, 1.0 - RADIUS_BAND) > DEPTH_BAND {
             Some(true)
-        } else if !deep(1.0 + RADIUS_BAND) {
+        } else if self.depth_for(p, 1.0 + RADIUS_BAND) < -DEPTH_BAND {
             Some(false)
         } else {
             None
@@ -93,7 +96,12 @@ impl Witness {
     /// How deep `p` lies in the fill: in the closing of the solid or, for an opening, in the closing of its complement.
     /// Exact inside, up to a tenth of the radius; outside, minus a lower bound of the distance.
     pub fn depth(&self, p: Point) -> f64 {
-        self.unit_depth(self.frame.point_to_unit(p), 1.0) * self.radius
+        self.depth_for(p, 1.0) * self.radius
+    }
+
+    /// The depth of `p` over the radius, for a radius that is larger by the given factor.
+    fn depth_for(&self, p: Point, factor: f64) -> f64 {
+        self.unit_depth(self.frame.point_to_unit(p), factor)
     }
 
     /// Whether `p` belongs to what the disk must not touch: the solid, or its complement for an opening.
@@ -217,24 +225,22 @@ pub fn judge(input: &Region, result: &Region, radius: Radius, operation: Operati
     let witness = Witness::new(input, radius, operation);
     let claimed = BoundaryIndex::new(result);
     let mut verdict = Verdict { worst_error: 0.0, place: None, samples: 0, undecidable: 0 };
-    let record = |error: f64, p: Point, verdict: &mut Verdict| {
+    let mut count = |p: Point, error: f64, is_undecidable: &dyn Fn() -> bool| {
         verdict.samples += 1;
-        if error > RADIUS_BAND * r && witness.membership(p) == Membership::WithinTolerance {
+        if error > DEPTH_BAND * r && is_undecidable() {
             verdict.undecidable += 1;
         } else if verdict.place.is_none() || error > verdict.worst_error {
             (verdict.worst_error, verdict.place) = (error, Some(p));
         }
     };
     for p in spread(result, samples) {
-        record(witness.depth(p).abs(), p, &mut verdict);
+        count(p, witness.depth(p).abs(), &|| witness.membership(p) == Membership::WithinTolerance);
     }
     for p in spread(input, samples) {
         let distance = claimed.distance(p);
-        if distance > RADIUS_BAND * r && witness.depth(p) <= RADIUS_BAND * r {
-            record(distance, p, &mut verdict);
-        } else {
-            verdict.samples += 1;
-        }
+        let is_missing = distance > DEPTH_BAND * r && witness.depth(p) <= DEPTH_BAND * r;
+        // Under a slightly larger closing it is no boundary: then nothing is missing there for sure.
+        count(p, if is_missing { distance } else { 0.0 }, &|| witness.depth_for(p, 1.0 + RADIUS_BAND) > DEPTH_BAND);
     }
     verdict
 }

@@ -74,9 +74,8 @@ pub fn two_disks(radius: f64, distance: f64) -> Region {
     Region::new(vec![center(-distance / 2.0), center(distance / 2.0)])
 }
 
-/// A closed fractal coast of `vertices` vertices (a power of two times 4 is best) about a square of half side `size`,
-/// by displacing midpoints. Displacements are small enough that it does not cross itself: each stays inside the
-/// triangle of its edge with a base angle below 22.5 degrees.
+/// A closed fractal coast of about `vertices` vertices about a square of half side `size`, by displacing midpoints. Where
+/// it crosses itself the loops are cut off: the outline is the largest ring of its union.
 pub fn coast(vertices: usize, size: f64, seed: u64) -> Region {
     let mut numbers = Numbers::new(seed);
     let mut points =
@@ -94,7 +93,10 @@ pub fn coast(vertices: usize, size: f64, seed: u64) -> Region {
         }
         points = finer;
     }
-    Region::new(vec![Ring::polygon(points)])
+    let contour: Vec<[f64; 2]> = points.iter().map(|p| [p.x, p.y]).collect();
+    let shapes = FloatOverlay::<[f64; 2], i64>::from_subj(&contour).overlay(OverlayRule::Subject, FillRule::NonZero);
+    let rings = shapes.iter().flatten().map(|c| Ring::polygon(c.iter().map(|p| Point::new(p[0], p[1]))));
+    Region::new(rings.max_by(|a, b| a.area().total_cmp(&b.area())).into_iter().collect())
 }
 
 /// A star of `tips` tips between two radii.
