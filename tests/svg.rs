@@ -152,5 +152,7 @@ fn countries_glyphs_icons_and_parts_read_whole() {
         let difference = difference(&polygons(&read[0]), &polygons(&read[1]));
         println!("{name} difference {difference} {sampling}");
         assert!(difference <= sampling, "{name}: {difference} beyond {sampling}");
+        assert!((read[0].area() - read[1].area()).abs() <= sampling, "{name}");
+        assert_eq!(read[0].topology(), read[1].topology(), "{name}");
     }
 }

@@ -273,11 +273,40 @@ impl Segment {
                     return chord;
                 }
                 let side = (self.end - self.start).perp(&(p - self.start));
+                // On the chord itself, the side that the chord's own count took the point to be on.
+                let (d, on_chord) = (self.end - self.start, side == 0.0);
+                let upward = d.y > 0.0 || (d.y == 0.0 && d.x < 0.0);
                 match arc.turn {
                     // Counterclockwise: the circular segment lies right of the chord.
-                    Turn::Left if side < 0.0 => chord + 1,
-                    Turn::Right if side > 0.0 => chord - 1,
+                    Turn::Left if side < 0.0 || (on_chord && upward) => chord + 1,
+                    Turn::Right if side > 0.0 || (on_chord && !upward) => chord - 1,
                     _ => chord,
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plane::Ring;
+
+    #[test]
+    fn a_point_on_the_chord_of_an_arc_is_inside_the_circle() {
+        for angle in [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5].map(|quarter| quarter * PI / 2.0) {
+            let (sin, cos) = if (angle * 2.0 / PI).fract() == 0.0 {
+                (angle.sin().round(), angle.cos().round())
+            } else {
+                angle.sin_cos()
+            };
+            let d = Vector::new(cos, sin);
+            for turn in [Turn::Left, Turn::Right] {
+                let link = Link::Arc(Arc { center: Point::origin(), radius: 1.0, turn });
+                let vertex = |v: Vector| crate::plane::Vertex { link, ..crate::plane::Vertex::corner(Point::from(v)) };
+                let ring = Ring { vertices: vec![vertex(d), vertex(-d)] };
+                for t in [-0.5, 0.0, 0.25] {
+                    assert_eq!(ring.winding_number(Point::from(d * t)), turn.sign() as i32, "{angle} {turn:?} {t}");
                 }
             }
         }
