@@ -179,7 +179,7 @@ mod tests {
         let (_, d) = path_data("M0 4Q2 4.5 4 4L4 0C3 -1 1 -1 0 0.1Z");
         assert_eq!(d, "M0 4Q2 4.5 4 4L4 0C3 -1 1 -1 0 0.1Z");
         let (_, d) = path_data("M0 4L0 0.1C1 -1 3 -1 4 0L4 4Q2 4.5 0 4Z");
-        assert_eq!(d, "M0 4Q2 4.5 4 4L4 0C3 -1 1 -1 0 0.1Z");
+        assert_eq!(d, "M4 4L4 0C3 -1 1 -1 0 0.1L0 4Q2 4.5 4 4Z");
     }
 
     #[test]
