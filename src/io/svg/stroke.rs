@@ -5,9 +5,9 @@ use kurbo::{BezPath, Cap, Join, PathEl, Shape, StrokeOpts};
 use crate::plane::{Bounds, Point, left_normal, turn_angle};
 
 use super::affine::Affine;
-use super::collect::decimal;
 use super::elliptic::EllipticArc;
 use super::outline::{Command, Outline};
+use super::rough::decimal;
 
 /// How far the edge of a stroke may stray from the true offset curve, in parts of the larger of outline and width: a
 /// tenth of what sampling then adds.
