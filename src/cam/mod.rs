@@ -1,32 +1,43 @@
-//! From a closed region to the moves of a tool.
+//! From a closed region to the moves of a tool, and from the moves of a program back to what they cut.
 //!
 //! A [`Job`] says what to cut and how. Its [`Side`] says which region has to be closed, and by how much; the closing
 //! itself is not made here. [`plan`] takes the closed region and gives a [`Toolpath`]: the exact [`offset`] of the
 //! boundary, runs of chords joined to arcs ([`fit_arcs`]), contours in an order that never frees a piece before its
-//! inside is done, entries away from corners, passes by depth.
+//! inside is done, entries away from corners, passes by depth. [`certify`] takes a program as it was read back and tells
+//! what it does to the part.
 //!
 //! Guaranteed: the tool's centre keeps the tool's radius from the closed region, up to [`ARC_FIT_TOLERANCE`]; it travels
 //! in x and y only at the safe height; it enters the stock only by a ramp or a straight plunge at the plunge feed.
 //! Refused: regions with concave features tighter than the tool, jobs with values that make no sense.
 
 mod biarc;
+mod certificate;
 mod contour;
 mod entry;
 mod fit;
+mod gouge;
 mod job;
 mod job_file;
+mod motion;
 mod offset;
 mod order;
+mod path_radius;
 mod plan;
+mod removal;
 mod side;
 mod simplify;
+mod solid;
+mod stroke;
 #[cfg(test)]
 pub(crate) mod test_shapes;
+pub mod time;
 mod toolpath;
 mod walk;
 
+pub use certificate::{Certificate, CertifyOptions, ProgramStatistics, certify, statistics};
 pub use contour::Contour;
 pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};
+pub use gouge::{Gouge, deepest_cut};
 pub use job::{
     DEFAULT_ACCELERATION, DEFAULT_DEPTH, DEFAULT_DEPTH_PER_PASS, DEFAULT_DIRECTION, DEFAULT_DWELL, DEFAULT_ENTRY,
     DEFAULT_FEED, DEFAULT_ORIGIN, DEFAULT_PATH_RADIUS, DEFAULT_PLUNGE_FEED, DEFAULT_SAFE_CLEARANCE, DEFAULT_SIDE,
@@ -34,7 +45,11 @@ pub use job::{
     Origin, PathRadius,
 };
 pub use job_file::{JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
+pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
+pub use path_radius::{PathPlace, TightestTurns, tightest_turns};
 pub use plan::{PlanError, plan};
+pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
 pub use side::Side;
+pub use solid::Remainder;
 pub use toolpath::{Move, MoveKind, Settings, Toolpath};

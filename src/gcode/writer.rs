@@ -7,10 +7,11 @@
 
 use std::fmt::Write as _;
 
+use super::Dialect;
 use super::comment::comment_lines;
 use super::grid::{Decimal, Grid};
 use super::round_arc::{LARGEST_MISMATCH, LARGEST_SWEEP, Rounded, lines_for_arc, round_arc};
-use super::{Dialect, Point3};
+use crate::cam::Point3;
 use crate::cam::{Move, MoveKind, Toolpath};
 use crate::plane::{Arc, Link, Point, Segment, Turn};
 use crate::units::MM_PER_INCH;

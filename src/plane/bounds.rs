@@ -68,6 +68,14 @@ impl Bounds {
         dx * dx + dy * dy
     }
 
+    /// Squared distance from any point of `other` to the nearest point of the box; 0 where they overlap.
+    #[inline]
+    pub fn gap_squared(&self, other: &Bounds) -> f64 {
+        let dx = (self.min.x - other.max.x).max(other.min.x - self.max.x).max(0.0);
+        let dy = (self.min.y - other.max.y).max(other.min.y - self.max.y).max(0.0);
+        dx * dx + dy * dy
+    }
+
     /// Whether the box holds no point.
     pub fn is_empty(&self) -> bool {
         !(self.min.x <= self.max.x && self.min.y <= self.max.y)

@@ -31,16 +31,33 @@ impl ChainTree {
     ///
     /// `reach` is asked anew before every descent, so that a search for the nearest element can shrink it, and a search
     /// for any element can end itself by returning a negative number.
-    pub fn visit_near(&self, p: Point, mut reach: impl FnMut() -> f64, mut visit: impl FnMut(usize)) {
+    pub fn visit_near(&self, p: Point, reach: impl FnMut() -> f64, visit: impl FnMut(usize)) {
+        self.descend(|b| b.distance_squared(p), reach, visit);
+    }
+
+    /// Calls `visit` with every element whose leaf comes within `reach()` of `query`, nearer subtrees first, as
+    /// [`ChainTree::visit_near`] does for a point.
+    pub fn visit_near_box(&self, query: &Bounds, reach: impl FnMut() -> f64, visit: impl FnMut(usize)) {
+        self.descend(|b| b.gap_squared(query), reach, visit);
+    }
+
+    #[inline]
+    fn descend(
+        &self,
+        distance_squared_to: impl Fn(&Bounds) -> f64,
+        mut reach: impl FnMut() -> f64,
+        mut visit: impl FnMut(usize),
+    ) {
         if self.len == 0 {
             return;
         }
         // Depth: two children a level, at most one of them waiting.
         let mut stack: Vec<(usize, usize, f64)> = Vec::with_capacity(2 * self.levels.len());
         let top = self.levels.len() - 1;
-        stack.push((top, 0, self.levels[top][0].distance_squared(p)));
+        stack.push((top, 0, distance_squared_to(&self.levels[top][0])));
         while let Some((level, index, distance_squared)) = stack.pop() {
             let limit = reach();
+            // Nothing is nearer than a negative distance.
             if limit < 0.0 {
                 return;
             }
@@ -53,9 +70,9 @@ impl ChainTree {
             }
             let below = &self.levels[level - 1];
             let (a, b) = (2 * index, 2 * index + 1);
-            let da = below[a].distance_squared(p);
+            let da = distance_squared_to(&below[a]);
             if b < below.len() {
-                let db = below[b].distance_squared(p);
+                let db = distance_squared_to(&below[b]);
                 if da <= db {
                     stack.push((level - 1, b, db));
                     stack.push((level - 1, a, da));

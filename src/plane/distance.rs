@@ -1,6 +1,6 @@
 //! Distance from points to the boundary of a region.
 
-use super::{Bounds, ChainTree, Nearest, Point, Region, Segment};
+use super::{Approach, Bounds, ChainTree, Nearest, Point, Region, Segment};
 
 /// The boundary of a region, arranged for many distance queries.
 #[derive(Clone, Debug)]
@@ -47,6 +47,32 @@ impl BoundaryIndex {
         self.nearest(p).map_or(f64::INFINITY, |(_, n)| n.distance)
     }
 
+    /// The element that comes nearest to `element`, and where; `None` without elements.
+    pub fn approach(&self, element: &Segment) -> Option<(usize, Approach)> {
+        // A first guess keeps the search from testing all elements near the box of a long one.
+        let (guess, _) = self.nearest(element.point_at(0.5))?;
+        let best = std::cell::Cell::new((guess, element.approach(&self.segments[guess])));
+        self.tree.visit_near_box(
+            &element.bounds(),
+            || best.get().1.distance,
+            |i| {
+                let found = element.approach(&self.segments[i]);
+                if found.distance < best.get().1.distance {
+                    best.set((i, found));
+                }
+            },
+        );
+        Some(best.get())
+    }
+
+    /// How often the elements, taken as closed rings, run counterclockwise around `p`.
+    pub fn winding_number(&self, p: Point) -> i32 {
+        let ray = Bounds { min: p, max: Point::new(f64::INFINITY, p.y) };
+        let mut winding = 0;
+        self.tree.visit_near_box(&ray, || 0.0, |i| winding += self.segments[i].ray_crossings(p));
+        winding
+    }
+
     /// Whether some element lies nearer to `p` than `limit`.
     pub fn is_nearer(&self, p: Point, limit: f64) -> bool {
         let found = std::cell::Cell::new(false);
@@ -54,7 +80,7 @@ impl BoundaryIndex {
             p,
             || if found.get() { -1.0 } else { limit },
             |i| {
-                if !found.get() && self.segments[i].nearest(p).distance < limit {
+                if !found.get() && self.segments[i].is_nearer(p, limit) {
                     found.set(true);
                 }
             },

@@ -11,6 +11,7 @@ mod point;
 mod region;
 mod ring;
 mod segment;
+mod segment_distance;
 
 pub use bounds::Bounds;
 pub use chain_tree::ChainTree;
@@ -19,3 +20,4 @@ pub use point::{Point, Vector, left_normal, right_normal, turn_angle};
 pub use region::{Region, TopologyCount};
 pub use ring::{Joint, Ring, Vertex, VertexId};
 pub use segment::{Arc, Link, Nearest, Segment, Turn};
+pub use segment_distance::Approach;

@@ -1,6 +1,6 @@
 //! A set of the plane, bounded by rings.
 
-use super::{Bounds, Point, Ring, Segment};
+use super::{Bounds, Point, Ring, Segment, Vector};
 
 /// A solid set of the plane: outer rings counterclockwise, holes clockwise, no crossings.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -57,6 +57,11 @@ impl Region {
     /// The region with solid and empty exchanged: every ring reversed.
     pub fn reversed(&self) -> Region {
         Region { rings: self.rings.iter().map(Ring::reversed).collect() }
+    }
+
+    /// The region moved by `by`.
+    pub fn translated(&self, by: Vector) -> Region {
+        Region { rings: self.rings.iter().map(|r| r.translated(by)).collect() }
     }
 
     /// Whether `p` lies in the solid; unspecified on the boundary itself. Linear in the number of vertices.

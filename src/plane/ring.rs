@@ -2,7 +2,7 @@
 
 use std::num::NonZeroU32;
 
-use super::{Bounds, Link, Point, Segment};
+use super::{Bounds, Link, Point, Segment, Vector};
 
 /// The identity of a vertex of a drawing: survives every operation that leaves the vertex where it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -70,7 +70,7 @@ impl Ring {
 
     /// A whole circle of four arcs, counterclockwise.
     pub fn circle(center: Point, radius: f64) -> Ring {
-        use super::{Arc, Turn, Vector};
+        use super::{Arc, Turn};
         let link = Link::Arc(Arc { center, radius, turn: Turn::Left });
         let spokes = [Vector::x(), Vector::y(), -Vector::x(), -Vector::y()];
         Ring {
@@ -134,6 +134,13 @@ impl Ring {
             })
             .collect();
         Ring { vertices }
+    }
+
+    /// The ring moved by `by`.
+    pub fn translated(&self, by: Vector) -> Ring {
+        let vertices =
+            self.vertices.iter().map(|v| super::Vertex { point: v.point + by, link: v.link.translated(by), ..*v });
+        Ring { vertices: vertices.collect() }
     }
 
     /// How often the ring runs counterclockwise around `p`. Unspecified for a point on the ring itself.

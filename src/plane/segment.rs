@@ -88,6 +88,14 @@ impl Link {
             Link::Arc(arc) => Link::Arc(Arc { turn: arc.turn.opposite(), ..arc }),
         }
     }
+
+    /// The same link moved by `by`.
+    pub fn translated(self, by: Vector) -> Link {
+        match self {
+            Link::Line => Link::Line,
+            Link::Arc(arc) => Link::Arc(Arc { center: arc.center + by, ..arc }),
+        }
+    }
 }
 
 /// A boundary element with its ends.
@@ -100,6 +108,10 @@ pub struct Segment {
     /// How it gets there.
     pub link: Link,
 }
+
+/// An arc becomes no more chords than this: beyond it a tolerance is below what `f64` can resolve on its radius, or the
+/// arc is absurd.
+const MOST_CHORDS: f64 = 1e5;
 
 /// The nearest point of a boundary element.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,6 +221,27 @@ impl Segment {
         }
     }
 
+    /// Whether some point of the element lies nearer to `p` than `limit`.
+    #[inline]
+    pub fn is_nearer(&self, p: Point, limit: f64) -> bool {
+        match self.link {
+            Link::Line => {
+                let (d, w) = (self.end - self.start, p - self.start);
+                let (along, length_squared) = (w.dot(&d), d.norm_squared());
+                let nearest = if along <= 0.0 {
+                    w.norm_squared()
+                } else if along >= length_squared {
+                    (p - self.end).norm_squared()
+                } else {
+                    let across = d.perp(&w);
+                    across * across / length_squared
+                };
+                nearest < limit * limit && limit > 0.0
+            }
+            Link::Arc(_) => self.nearest(p).distance < limit,
+        }
+    }
+
     /// Twice the signed area between the element and the origin, counterclockwise positive.
     pub fn doubled_area(&self) -> f64 {
         let chord = self.start.coords.perp(&self.end.coords);
@@ -229,7 +262,7 @@ impl Segment {
         if let Link::Arc(arc) = self.link {
             let sweep = self.sweep();
             let step = if tolerance < arc.radius { 2.0 * (1.0 - tolerance / arc.radius).acos() } else { PI };
-            let count = (sweep / step).ceil().max(1.0);
+            let count = (sweep / step).ceil().clamp(1.0, MOST_CHORDS);
             for k in 1..count as usize {
                 emit(arc.travel(self.start, sweep * k as f64 / count));
             }
@@ -241,11 +274,7 @@ impl Segment {
 impl Segment {
     /// The element moved by `by`.
     pub fn translated(&self, by: Vector) -> Segment {
-        let link = match self.link {
-            Link::Line => Link::Line,
-            Link::Arc(arc) => Link::Arc(Arc { center: arc.center + by, ..arc }),
-        };
-        Segment { start: self.start + by, end: self.end + by, link }
+        Segment { start: self.start + by, end: self.end + by, link: self.link.translated(by) }
     }
 
     /// Signed crossings of the element with the ray from `p` towards +x: +1 upward, -1 downward.

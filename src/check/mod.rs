@@ -1,0 +1,29 @@
+//! A result against its reference, and what a result has lost of the part.
+//!
+//! [`compare`] measures; it believes neither side, and reports the reference's own error bound beside its numbers.
+//! [`lost_features`] names what a closing fills or an opening removes beyond rounding corners.
+
+mod compare;
+mod features;
+mod inside;
+mod moved;
+mod report;
+
+pub use compare::compare;
+pub use features::{LostFeature, lost_features};
+pub use report::{Area, Containment, Distance, Kept, Report, SmallestRadius, Topology};
+
+/// A place for reports: x and y in the units of the drawing.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Place {
+    /// Horizontal coordinate in the units of the drawing.
+    pub x: f64,
+    /// Vertical coordinate in the units of the drawing, upward.
+    pub y: f64,
+}
+
+impl From<crate::plane::Point> for Place {
+    fn from(p: crate::plane::Point) -> Place {
+        Place { x: p.x, y: p.y }
+    }
+}

@@ -1,0 +1,3 @@
+//! The command line: arguments, commands, reports.
+
+pub mod check;

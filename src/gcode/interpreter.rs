@@ -1,0 +1,425 @@
+//! What a program's lines make a machine do.
+//!
+//! The modal state starts unknown. What a machine would take from its memory is assumed (millimetres, absolute, XY
+//! plane, units per minute), and that it had to be assumed is a finding. Reading never stops: a line that cannot be
+//! understood is a finding too, and whether the program's meaning is lost is said by its rule.
+
+use std::collections::BTreeSet;
+
+use super::Finding;
+use super::arc_words::{ArcForm, solve_arc};
+use super::block::{Block, Fault};
+use super::codes;
+use super::rules::Rule;
+use crate::cam::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit};
+use crate::plane::{Point, Turn};
+
+/// A program and what was found while reading it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Interpretation {
+    pub(super) program: Program,
+    pub(super) findings: Vec<Finding>,
+}
+
+/// Where a homing motion leaves Z if the program has not moved yet, in millimetres: only pictures see it.
+const ASSUMED_HOME: f64 = 25.0;
+
+/// Chord error of arcs outside of the XY plane, which are read as lines, in millimetres; far below what machines show.
+const OTHER_PLANE_TOLERANCE: f64 = 1e-4;
+
+/// Most characters of a line for GRBL, without comments and blanks: its buffer of 80 holds an end mark.
+const GRBL_LINE: usize = 79;
+
+/// Most characters of a line for LinuxCNC, comments and blanks included; measured.
+const LINUXCNC_LINE: usize = 252;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum MotionMode {
+    Rapid,
+    Feed,
+    Arc(Turn),
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum FeedMode {
+    PerMinute,
+    InverseTime,
+}
+
+/// Axes as indices into a [`Point3`]: the two of the plane and the one across.
+pub(super) type PlaneAxes = [usize; 3];
+const XY: PlaneAxes = [0, 1, 2];
+const ZX: PlaneAxes = [2, 0, 1];
+const YZ: PlaneAxes = [1, 2, 0];
+
+#[derive(Default)]
+struct Interpreter {
+    out: Interpretation,
+    line: usize,
+    motion: Option<MotionMode>,
+    plane: Option<PlaneAxes>,
+    unit: Option<ProgramUnit>,
+    is_incremental: Option<bool>,
+    arc_centers_are_absolute: bool,
+    feed_mode: Option<FeedMode>,
+    /// In the unit of the feed mode, with millimetres.
+    feed: Option<f64>,
+    spindle_on: bool,
+    spindle_speed: f64,
+    position: Point3,
+    z_is_known: bool,
+    highest: f64,
+    said: BTreeSet<Rule>,
+}
+
+/// Runs `text`, a whole program.
+pub(super) fn interpret(text: &str) -> Interpretation {
+    let mut machine = Interpreter { position: Point3::origin(), highest: f64::NEG_INFINITY, ..Interpreter::default() };
+    for (index, line) in text.lines().enumerate() {
+        machine.line = index + 1;
+        if machine.out.program.end_line.is_none() {
+            machine.run(line);
+        }
+    }
+    machine.out.program.unit = machine.out.program.unit.or(machine.unit);
+    machine.out
+}
+
+impl Interpreter {
+    fn find(&mut self, rule: Rule, detail: impl Into<String>) {
+        self.out.findings.push(Finding::new(self.line, rule, detail));
+    }
+
+    /// For findings that would repeat on every line.
+    fn find_once(&mut self, rule: Rule, detail: &str) {
+        if self.said.insert(rule) {
+            self.find(rule, detail);
+        }
+    }
+
+    fn run(&mut self, line: &str) {
+        let block = Block::parse(line);
+        self.check_text(line, &block);
+        let comments = block.comments.iter().filter(|c| !c.is_empty());
+        self.out.program.comments.extend(comments.map(|c| Comment { line: self.line, text: c.clone() }));
+        self.check_words(&block);
+        self.execute(&block);
+    }
+
+    fn check_text(&mut self, line: &str, block: &Block) {
+        if block.code_length > GRBL_LINE {
+            self.find(Rule::LineTooLong, format!("{} characters", block.code_length));
+        }
+        if line.len() > LINUXCNC_LINE {
+            self.find(Rule::LineTooLongLinuxcnc, format!("{} characters", line.len()));
+        }
+        if block.has_delimiter {
+            self.find_once(Rule::PercentSign, "");
+        }
+        if block.has_program_number {
+            self.find_once(Rule::ProgramNumber, "");
+        }
+        if block.is_deletable {
+            self.find_once(Rule::BlockDelete, "");
+        }
+        let is_expression = |text: &str| text.contains(['#', '[', ']', '=']);
+        let code = line.split(['(', ';']).next().unwrap_or("");
+        for fault in &block.faults {
+            match fault {
+                Fault::BadNumber(_) | Fault::Unknown(_) if is_expression(code) => {
+                    self.find(Rule::Expression, code.trim());
+                    break;
+                }
+                Fault::BadNumber(text) => self.find(Rule::BadNumber, text),
+                Fault::Unknown(text) => self.find(Rule::UnknownText, text),
+                Fault::UnclosedComment => self.find(Rule::UnclosedComment, ""),
+                Fault::NestedComment => self.find(Rule::NestedComment, ""),
+            }
+        }
+    }
+
+    fn check_words(&mut self, block: &Block) {
+        let mut seen = 0u32;
+        let mut groups = BTreeSet::new();
+        for word in &block.words {
+            let tenths = codes::tenths(word.value);
+            match word.letter {
+                'G' | 'M' => {
+                    let is_g = word.letter == 'G';
+                    let text = format!("{}{}", word.letter, word.value);
+                    match tenths.map(|t| codes::support(is_g, t)) {
+                        None | Some(codes::Support::Nowhere) => self.find(Rule::UnknownCode, &text),
+                        Some(codes::Support::LinuxcncOnly) => {
+                            let rule = if (is_g, tenths) == (false, Some(60)) {
+                                Rule::ToolChange
+                            } else {
+                                Rule::GrblUnsupported
+                            };
+                            self.find(rule, &text);
+                        }
+                        Some(codes::Support::Both) => {}
+                    }
+                    if let Some(group) = tenths.and_then(|t| codes::group(is_g, t))
+                        && !groups.insert(group)
+                    {
+                        self.find(Rule::ConflictingCodes, &text);
+                    }
+                }
+                letter => {
+                    let bit = 1u32 << (u32::from(letter).wrapping_sub(u32::from('A')) % 32);
+                    if seen & bit != 0 {
+                        self.find(Rule::DuplicateWord, letter);
+                    }
+                    seen |= bit;
+                    match letter {
+                        'E' => self.find(Rule::Exponent, format!("E{}", word.value)),
+                        'A' | 'B' | 'C' | 'D' | 'H' | 'Q' | 'U' | 'V' | 'W' => self.find(Rule::GrblUnsupported, letter),
+                        'F' | 'S' | 'T' | 'P' if word.value < 0.0 => {
+                            self.find(Rule::NegativeValue, format!("{letter}{}", word.value));
+                        }
+                        _ => {}
+                    }
+                }
+            }
+        }
+    }
+
+    /// In the order in which controllers act: settings first, then dwell, then motion, then the end.
+    fn execute(&mut self, block: &Block) {
+        let mut dwell = false;
+        let mut homing = false;
+        let mut end = false;
+        let mut takes_axes = false;
+        let mut takes_offsets = false;
+        let (mut spindle, mut tool_stop) = (None, false);
+        for word in &block.words {
+            let Some(tenths) = codes::tenths(word.value) else { continue };
+            match (word.letter, tenths) {
+                ('G', 0) => self.motion = Some(MotionMode::Rapid),
+                ('G', 10) => self.motion = Some(MotionMode::Feed),
+                ('G', 20) => self.motion = Some(MotionMode::Arc(Turn::Right)),
+                ('G', 30) => self.motion = Some(MotionMode::Arc(Turn::Left)),
+                ('G', 40) => dwell = true,
+                ('G', 170) => self.plane = Some(XY),
+                ('G', 180) => self.plane = Some(ZX),
+                ('G', 190) => self.plane = Some(YZ),
+                ('G', 200) => self.set_unit(ProgramUnit::Inch),
+                ('G', 210) => self.set_unit(ProgramUnit::Millimetre),
+                ('G', 900) => self.is_incremental = Some(false),
+                ('G', 910) => self.is_incremental = Some(true),
+                ('G', 901) => self.arc_centers_are_absolute = true,
+                ('G', 911) => self.arc_centers_are_absolute = false,
+                ('G', 930) => self.set_feed_mode(FeedMode::InverseTime),
+                ('G', 940) => self.set_feed_mode(FeedMode::PerMinute),
+                ('G', 280 | 300 | 530) => homing = true,
+                ('G', 281 | 301) => {}
+                ('G', 100 | 430..=432 | 520 | 920..=923 | 550..=593) => {
+                    takes_axes |= matches!(tenths, 100 | 431 | 520 | 920);
+                    takes_offsets = true;
+                    self.find_once(Rule::ShiftedOrigin, &format!("G{}", word.value));
+                }
+                ('G', t) if codes::is_not_followed(t) => {
+                    (takes_axes, takes_offsets) = (true, true);
+                    self.find(Rule::NotFollowed, format!("G{}", word.value));
+                }
+                ('G', 640) => takes_offsets = true,
+                ('M', 30 | 40) => spindle = Some(true),
+                ('M', 50) => spindle = Some(false),
+                ('M', 60) => tool_stop = true,
+                ('M', 20 | 300) => end = true,
+                ('M', 980 | 990) => self.find(Rule::NotFollowed, format!("M{}", word.value)),
+                ('M', t) if t >= 600 => takes_offsets = true,
+                _ => {}
+            }
+        }
+        if let Some(f) = block.value('F') {
+            let unit = if self.feed_mode == Some(FeedMode::InverseTime) { 1.0 } else { self.millimetres() };
+            self.feed = Some(f * unit);
+        }
+        if let Some(s) = block.value('S') {
+            self.spindle_speed = s;
+            self.out.program.spindle_speed = self.out.program.spindle_speed.max(s);
+        }
+        if tool_stop {
+            self.spindle_on = false;
+        }
+        if let Some(on) = spindle {
+            self.spindle_on = on;
+            if on && self.spindle_speed <= 0.0 {
+                self.find(Rule::NoSpindleSpeed, "");
+            }
+        }
+        if dwell {
+            match block.value('P') {
+                Some(seconds) => self.push(self.position, MotionKind::Dwell { seconds: seconds.max(0.0) }),
+                None => self.find(Rule::DwellWithoutTime, ""),
+            }
+        }
+        let axes = ['X', 'Y', 'Z'].map(|letter| block.value(letter));
+        let has_axes = axes.iter().any(Option::is_some);
+        if homing {
+            self.home(axes, has_axes);
+        } else if !takes_axes {
+            self.move_axes(block, axes, has_axes);
+        }
+        let is_arc = matches!(self.motion, Some(MotionMode::Arc(_)));
+        let offsets = ['I', 'J', 'K', 'R'].into_iter().find(|&l| block.value(l).is_some());
+        if let Some(letter) = offsets.filter(|_| !is_arc && !takes_offsets) {
+            self.find(Rule::UnusedWord, letter);
+        }
+        if block.value('P').is_some() && !(dwell || is_arc || takes_offsets) {
+            self.find(Rule::UnusedWord, 'P');
+        }
+        if end {
+            self.out.program.end_line = Some(self.line);
+            self.find_end();
+        }
+    }
+
+    fn find_end(&mut self) {
+        // LinuxCNC and GRBL stop the spindle at M2 and M30, senders and other controllers may not.
+        if self.spindle_on {
+            self.find(Rule::SpindleLeftOn, "");
+        }
+    }
+
+    fn set_unit(&mut self, unit: ProgramUnit) {
+        self.unit = Some(unit);
+        self.out.program.unit.get_or_insert(unit);
+    }
+
+    fn set_feed_mode(&mut self, mode: FeedMode) {
+        // A feed of the one mode means nothing in the other: both controllers forget it.
+        if self.feed_mode.is_some_and(|before| before != mode) {
+            self.feed = None;
+        }
+        self.feed_mode = Some(mode);
+    }
+
+    fn millimetres(&self) -> f64 {
+        self.unit.unwrap_or(ProgramUnit::Millimetre).millimetres()
+    }
+
+    fn push(&mut self, to: Point3, kind: MotionKind) {
+        let motion = Motion { line: self.line, from: self.position, to, kind, spindle_on: self.spindle_on };
+        self.out.program.motions.push(motion);
+        self.position = to;
+        self.highest = self.highest.max(to.z);
+    }
+
+    /// G28, G30 and G53: the machine knows the place, the program does not. Z alone matters to what is cut: it goes up.
+    fn home(&mut self, axes: [Option<f64>; 3], has_axes: bool) {
+        self.find_once(Rule::Homing, "");
+        if axes[2].is_some() || !has_axes {
+            let z = if self.highest.is_finite() { self.highest } else { ASSUMED_HOME };
+            self.push(Point3::new(self.position.x, self.position.y, z), MotionKind::Rapid);
+            self.z_is_known = true;
+        }
+    }
+
+    fn move_axes(&mut self, block: &Block, axes: [Option<f64>; 3], has_axes: bool) {
+        let mode = self.motion;
+        let is_arc = matches!(mode, Some(MotionMode::Arc(_)));
+        let has_center = ['I', 'J', 'K', 'R'].iter().any(|&l| block.value(l).is_some());
+        if !has_axes && !(is_arc && has_center) {
+            return;
+        }
+        self.find_missing(mode);
+        let scale = self.millimetres();
+        let mut to = self.position;
+        for (axis, value) in axes.into_iter().enumerate() {
+            if let Some(value) = value {
+                let from = if self.is_incremental == Some(true) { self.position[axis] } else { 0.0 };
+                to[axis] = from + value * scale;
+            }
+        }
+        if (axes[0].is_some() || axes[1].is_some()) && !self.z_is_known {
+            self.find_once(Rule::TravelBeforeLift, "");
+        }
+        if axes[2].is_some() && !self.z_is_known {
+            // Where the tool was is unknown; that it was already there makes the first move of Z no plunge.
+            if self.is_incremental != Some(true) {
+                self.position.z = to.z;
+            }
+            self.z_is_known = true;
+        }
+        match mode {
+            None | Some(MotionMode::Rapid) => self.push(to, MotionKind::Rapid),
+            Some(MotionMode::Feed) => {
+                let feed = self.feed_for((to - self.position).norm(), block);
+                self.push(to, MotionKind::Feed { feed });
+            }
+            Some(MotionMode::Arc(turn)) => self.move_arc(block, turn, axes, to),
+        }
+    }
+
+    fn move_arc(&mut self, block: &Block, turn: Turn, axes: [Option<f64>; 3], to: Point3) {
+        let plane = self.plane.unwrap_or(XY);
+        let scale = self.millimetres();
+        let offsets = ['I', 'J', 'K'].map(|letter| block.value(letter).map(|v| v * scale));
+        let form = ArcForm {
+            from: self.position,
+            to,
+            plane,
+            turn,
+            offsets,
+            offsets_are_absolute: self.arc_centers_are_absolute,
+            radius: block.value('R').map(|v| v * scale),
+            has_end: axes[plane[0]].is_some() || axes[plane[1]].is_some(),
+            is_inch: self.unit == Some(ProgramUnit::Inch),
+        };
+        let line = self.line;
+        let solved = solve_arc(&form, |rule, detail| self.out.findings.push(Finding::new(line, rule, detail)));
+        let Some(arc) = solved else { return };
+        if block.value('P').is_some_and(|turns| turns != 1.0) {
+            self.find(Rule::NotFollowed, "an arc of several turns");
+        }
+        let feed = self.feed_for(arc.length(), block);
+        if plane == XY {
+            let center = Point::new(arc.center[0], arc.center[1]);
+            self.push(arc.to, MotionKind::Arc { center, turn, feed });
+            return;
+        }
+        self.find_once(Rule::ArcOtherPlane, "");
+        for p in arc.points(OTHER_PLANE_TOLERANCE) {
+            self.push(p, MotionKind::Feed { feed });
+        }
+    }
+
+    /// What the motion about to be made had to be guessed.
+    fn find_missing(&mut self, mode: Option<MotionMode>) {
+        if self.unit.is_none() {
+            self.find_once(Rule::MissingUnits, "");
+        }
+        if self.plane.is_none() {
+            self.find_once(Rule::MissingPlane, "");
+        }
+        if self.is_incremental.is_none() {
+            self.find_once(Rule::MissingDistanceMode, "");
+        }
+        match mode {
+            None => self.find_once(Rule::MissingMotionMode, ""),
+            Some(MotionMode::Feed | MotionMode::Arc(_)) if self.feed_mode.is_none() => {
+                self.find_once(Rule::MissingFeedMode, "");
+            }
+            _ => {}
+        }
+    }
+
+    /// Feed in millimetres a minute for a way of `length`; 0 where there is none, which is a finding.
+    fn feed_for(&mut self, length: f64, block: &Block) -> f64 {
+        let feed = match self.feed_mode {
+            // F is one over the minutes that the motion takes, and holds for its line only.
+            Some(FeedMode::InverseTime) => block.value('F').map(|f| f * length),
+            _ => self.feed,
+        };
+        let missing = match self.feed_mode {
+            Some(FeedMode::InverseTime) => block.value('F').is_none_or(|f| f <= 0.0),
+            _ => self.feed.is_none_or(|f| f <= 0.0),
+        };
+        if missing {
+            self.find(Rule::NoFeed, "");
+        }
+        feed.unwrap_or(0.0).max(0.0)
+    }
+}

@@ -1,0 +1,126 @@
+//! A program's text, read back into what a machine will do.
+//!
+//! Reads programs of any origin: millimetres and inches, absolute and incremental, arcs by centre or by radius, in all
+//! planes, helices, full circles, comments in both styles. It refuses what it cannot follow: parameters and
+//! expressions, cycles, cutter compensation, splines.
+
+use super::Finding;
+use super::interpreter::interpret;
+use crate::cam::Program;
+
+/// Why a program cannot be read: its first line whose meaning is lost.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("line {}: {} Run `clopen lint` for all findings.", .0.line, .0.message)]
+pub struct ReadError(pub Finding);
+
+/// The motions of `text`, a whole program, in millimetres.
+///
+/// What the program leaves to the machine is assumed: millimetres, absolute, XY plane, start at the origin. Use
+/// [`super::lint`] to know what was assumed.
+///
+/// # Errors
+/// Where a line cannot be understood, so that the motions would not be those of a machine.
+pub fn read(text: &str) -> Result<Program, ReadError> {
+    let read = interpret(text);
+    match read.findings.into_iter().find(|f| f.rule.info().meaning_lost) {
+        Some(finding) => Err(ReadError(finding)),
+        None => Ok(read.program),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cam::{MotionKind, Point3, ProgramUnit};
+    use crate::plane::{Point, Turn};
+
+    fn ends(text: &str) -> Vec<Point3> {
+        read(text).unwrap().motions.iter().map(|m| m.to).collect()
+    }
+
+    #[test]
+    fn modal_state_carries_over() {
+        let program = read("G21 G90 G17 G94\nG0 Z5\nX1 Y2\nG1 Z-1 F300\nX10\nY5 F600\nM2\nG0 X99").unwrap();
+        assert_eq!(program.unit, Some(ProgramUnit::Millimetre));
+        assert_eq!(program.end_line, Some(7));
+        assert_eq!(program.motions.len(), 5, "nothing runs after the end");
+        assert_eq!(program.motions[4].to, Point3::new(10.0, 5.0, -1.0));
+        assert_eq!(program.motions[3].kind, MotionKind::Feed { feed: 300.0 });
+        assert_eq!(program.motions[4].kind, MotionKind::Feed { feed: 600.0 });
+        assert_eq!(program.motions[4].line, 6);
+    }
+
+    #[test]
+    fn inches_and_increments_become_millimetres() {
+        let program = read("G20 G91 G17 G94\nG0 Z1\nX1 Y-.5\nG1 X0.1 F10\nX.1").unwrap();
+        let last = program.motions.last().unwrap();
+        assert!((last.to - Point3::new(30.48, -12.7, 25.4)).norm() < 1e-12, "{last:?}");
+        assert_eq!(last.kind, MotionKind::Feed { feed: 254.0 });
+    }
+
+    #[test]
+    fn arcs_by_centre_and_by_radius_agree() {
+        let head = "G21 G90 G17 G94 F100\nG0 Z1\nX10 Y0\n";
+        for (by_center, by_radius) in [
+            ("G3 X0 Y10 I-10 J0", "G3 X0 Y10 R10"),
+            ("G2 X0 Y10 I-10 J0", "G2 X0 Y10 R-10"),
+            ("G3 X0 Y10 I0 J10", "G3 X0 Y10 R-10"),
+            ("G2 X0 Y10 I0 J10", "G2 X0 Y10 R10"),
+            ("G90.1 G3 X0 Y10 I0 J0", "G3 X0 Y10 R10"),
+        ] {
+            let of = |arc: &str| read(&format!("{head}{arc}")).unwrap().motions[2];
+            let (a, b) = (of(by_center), of(by_radius));
+            let (MotionKind::Arc { center: p, turn: s, .. }, MotionKind::Arc { center: q, turn: t, .. }) =
+                (a.kind, b.kind)
+            else {
+                panic!("{by_center}: not arcs")
+            };
+            assert!((p - q).norm() < 1e-12 && s == t, "{by_center}: {p} and {q}");
+        }
+    }
+
+    #[test]
+    fn helices_and_full_circles() {
+        let program = read("G21 G90 G17 G94 F100\nG0 Z1\nX10 Y0\nG2 X10 Y0 Z-2 I-5 J0").unwrap();
+        let helix = program.motions[2];
+        assert_eq!(helix.kind, MotionKind::Arc { center: Point::new(5.0, 0.0), turn: Turn::Right, feed: 100.0 });
+        assert!((helix.length() - (10.0 * std::f64::consts::PI).hypot(3.0)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn arcs_of_other_planes_become_lines() {
+        // A half circle in XZ from (10, 0) over the top to (-10, 0): G18 turns from Z to X, so G2 goes from +X up.
+        let program = read("G21 G90 G94 F100\nG0 Z0\nX10 Y3\nG18 G3 X-10 Z0 I-10 K0").unwrap();
+        let arc = &program.motions[2..];
+        assert!(arc.len() > 100);
+        for m in arc {
+            assert!((m.to.x.hypot(m.to.z) - 10.0).abs() < 1e-9 && m.to.y == 3.0, "{m:?}");
+        }
+        let length: f64 = arc.iter().map(|m| m.length()).sum();
+        assert!((length - 10.0 * std::f64::consts::PI).abs() < 1e-3);
+    }
+
+    #[test]
+    fn inverse_time_is_a_feed_for_its_length() {
+        let program = read("G21 G90 G17 G93\nG0 Z1\nX0 Y0\nG1 X30 F2").unwrap();
+        assert_eq!(program.motions[2].kind, MotionKind::Feed { feed: 60.0 });
+    }
+
+    #[test]
+    fn an_unclosed_comment_swallows_no_line() {
+        assert_eq!(ends("G21 G90 (tool\nG0 Z5 (up)\nX1").len(), 2);
+    }
+
+    #[test]
+    fn numbers_keep_more_digits_than_single_precision() {
+        assert_eq!(ends("G21 G90\nG0 Z1234.5678901")[0].z, 1234.567_890_1);
+    }
+
+    #[test]
+    fn what_cannot_be_followed_is_refused_with_its_line() {
+        for text in ["G0 Z1\nG1 X#1 F5", "G0 Z1\nG41 D1", "G0 Z1\nG81 X1 Z-1 R1", "G0 Z1\nX1 X2", "G0 Z1\nG2 X5 Y5"] {
+            let error = read(text).unwrap_err();
+            assert_eq!(error.0.line, 2, "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Drawings in and out.
+
+pub mod svg;
+mod unite;

@@ -1,0 +1,463 @@
+//! From usvg's tree to the list of what is filled, with the digits of the file.
+//!
+//! usvg decides what is drawn: styles, references, visibility, fill rules, text. Its numbers are `f32`, so each shape is
+//! looked up in the file by its `id` and read again; usvg's transform tells which of the places of the element is meant.
+
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+use usvg::roxmltree::{Node, NodeId};
+
+use super::affine::Affine;
+use super::document::Source;
+use super::error::{Found, MAX_COORDINATE, Place, ReadError, Warning, WarningKind};
+use super::options::Strokes;
+use super::outline::{Command, Outline};
+use super::placement::placements;
+use super::shape::{self, Shape, attribute};
+use super::stroke;
+use crate::plane::Point;
+
+/// An area to be filled.
+#[derive(Clone, Debug)]
+pub(super) struct Item {
+    /// Index in [`Collection::elements`].
+    pub element: u32,
+    pub outline: Rc<Outline>,
+    /// From the outline to the root.
+    pub affine: Affine,
+    pub rule: usvg::FillRule,
+    /// Indices in [`Collection::clips`]: what the area is cut down to.
+    pub clips: Vec<usize>,
+}
+
+/// A clip path at one of its places: the union of `items`, cut down to `clips`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Clip {
+    pub items: Vec<Item>,
+    pub clips: Vec<usize>,
+}
+
+/// All that a drawing fills.
+#[derive(Debug, Default)]
+pub(super) struct Collection {
+    pub items: Vec<Item>,
+    pub clips: Vec<Clip>,
+    pub elements: Vec<Place>,
+    pub warnings: Vec<Warning>,
+    pub found: Found,
+    /// The ids that usvg's tree has.
+    pub seen: HashSet<String>,
+}
+
+pub(super) struct Collector<'a, 'input> {
+    source: &'a Source<'a, 'input>,
+    strokes: Strokes,
+    collection: Collection,
+    shapes: HashMap<NodeId, Option<Rc<Shape>>>,
+    placements: HashMap<NodeId, Rc<Vec<Affine>>>,
+    /// The exact maps of elements that can have a clip path.
+    clipped: Option<Rc<Vec<Affine>>>,
+    reusable: Option<Rc<Vec<Node<'a, 'input>>>>,
+    elements: HashMap<NodeId, u32>,
+    warned: HashSet<(NodeId, std::mem::Discriminant<WarningKind>)>,
+}
+
+/// Where the walk is.
+#[derive(Clone, Copy, Debug)]
+struct Context<'c> {
+    kind: Kind,
+    /// From where `rough` leads to the root.
+    outer: Affine,
+    /// usvg's transform, as a product in `f64`.
+    rough: Affine,
+    clips: &'c [usize],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Drawing,
+    Clip,
+    /// Glyphs of the text with this element number: usvg's outlines are all there is.
+    Text(u32),
+}
+
+impl<'a, 'input> Collector<'a, 'input> {
+    pub fn new(source: &'a Source<'a, 'input>, strokes: Strokes) -> Collector<'a, 'input> {
+        Collector {
+            source,
+            strokes,
+            collection: Collection::default(),
+            shapes: HashMap::new(),
+            placements: HashMap::new(),
+            clipped: None,
+            reusable: None,
+            elements: HashMap::new(),
+            warned: HashSet::new(),
+        }
+    }
+
+    /// Everything below `root`, whose coordinates `outer` maps to the drawing's.
+    pub fn collect(mut self, root: &usvg::Group, outer: Affine) -> Result<Collection, ReadError> {
+        let context = Context { kind: Kind::Drawing, outer, rough: Affine::IDENTITY, clips: &[] };
+        let mut items = Vec::new();
+        self.children(root, context, &mut items)?;
+        self.collection.items = items;
+        Ok(self.collection)
+    }
+
+    fn children(&mut self, group: &usvg::Group, context: Context, items: &mut Vec<Item>) -> Result<(), ReadError> {
+        for child in group.children() {
+            match child {
+                usvg::Node::Group(group) => self.group(group, context, items)?,
+                usvg::Node::Path(path) => self.path(path, context, items)?,
+                usvg::Node::Text(text) => self.text(text, context, items)?,
+                // Images are not loaded; the file itself is asked for them.
+                usvg::Node::Image(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn group(&mut self, group: &usvg::Group, context: Context, items: &mut Vec<Item>) -> Result<(), ReadError> {
+        let rough = context.rough.then_inner(&group.transform().into());
+        if !rough.is_finite() {
+            return Ok(());
+        }
+        for (applies, kind) in
+            [(group.mask().is_some(), WarningKind::Mask), (!group.filters().is_empty(), WarningKind::Filter)]
+        {
+            if applies && let Some(node) = self.first_element(group) {
+                self.warn(node, kind);
+            }
+        }
+        let mut clips = context.clips.to_vec();
+        if let Some(clip) = group.clip_path() {
+            let outer = context.outer.then_inner(&self.exact_group(&rough));
+            clips.push(self.clip(clip, outer)?);
+        }
+        if group.opacity().get() > 0.0 {
+            self.children(group, Context { rough, clips: &clips, ..context }, items)?;
+        } else {
+            self.mark_seen(group);
+        }
+        Ok(())
+    }
+
+    fn mark_seen(&mut self, group: &usvg::Group) {
+        for child in group.children() {
+            if let usvg::Node::Group(group) = child {
+                self.mark_seen(group);
+            }
+            self.collection.found.hidden += usize::from(!matches!(child, usvg::Node::Group(_)));
+            self.collection.seen.insert(child.id().to_owned());
+        }
+    }
+
+    /// A clip path used where `outer` leads to the root; its index.
+    fn clip(&mut self, clip: &usvg::ClipPath, outer: Affine) -> Result<usize, ReadError> {
+        let mut clips = Vec::new();
+        if let Some(nested) = clip.clip_path() {
+            clips.push(self.clip(nested, outer)?);
+        }
+        let rough = clip.transform().into();
+        let mut items = Vec::new();
+        self.children(clip.root(), Context { kind: Kind::Clip, outer, rough, clips: &[] }, &mut items)?;
+        self.collection.clips.push(Clip { items, clips });
+        Ok(self.collection.clips.len() - 1)
+    }
+
+    fn path(&mut self, path: &usvg::Path, context: Context, items: &mut Vec<Item>) -> Result<(), ReadError> {
+        if let Kind::Text(element) = context.kind {
+            let outline = Rc::new(single_precision(path.data(), false));
+            if path.is_visible() {
+                let affine = context.outer.then_inner(&context.rough);
+                self.paint(path, element, outline, affine, context, items)?;
+            }
+            return Ok(());
+        }
+        self.collection.seen.insert(path.id().to_owned());
+        let Some(located) = self.locate(path, &context.rough) else { return self.nameless(path, context, items) };
+        let node = located.node;
+        if !path.is_visible() {
+            let painted = path.fill().is_some() || path.stroke().is_some();
+            if context.kind == Kind::Drawing && painted {
+                self.warn(node, WarningKind::Invisible);
+                self.collection.found.hidden += 1;
+            } else {
+                self.collection.found.unpainted += 1;
+            }
+            return Ok(());
+        }
+        if let Some(at) = located.cut_at {
+            self.warn(node, WarningKind::PathCutShort { at });
+        }
+        if !located.exact {
+            self.warn(node, WarningKind::SinglePrecision);
+        }
+        let element = self.element(node);
+        let affine = context.outer.then_inner(&located.affine);
+        self.paint(path, element, located.outline, affine, context, items)
+    }
+
+    /// A path that usvg made: the viewport of a symbol as a clip path, or a marker.
+    fn nameless(&mut self, path: &usvg::Path, context: Context, items: &mut Vec<Item>) -> Result<(), ReadError> {
+        if context.kind != Kind::Clip {
+            let last = items.last().and_then(|i| self.collection.elements.get(i.element as usize)).cloned();
+            let is_page = items.is_empty() && self.source.document.root_element().has_attribute("background-color");
+            if let Some(place) = last.filter(|_| !is_page) {
+                let warning = Warning { place, kind: WarningKind::Marker };
+                if self.collection.warnings.last() != Some(&warning) {
+                    self.collection.warnings.push(warning);
+                }
+            }
+            return Ok(());
+        }
+        let element = self.element(self.source.document.root_element());
+        let outline = Rc::new(single_precision(path.data(), false));
+        let affine = context.outer.then_inner(&context.rough);
+        self.paint(path, element, outline, affine, context, items)
+    }
+
+    /// Adds what `path` fills and strokes.
+    fn paint(
+        &mut self,
+        path: &usvg::Path,
+        element: u32,
+        outline: Rc<Outline>,
+        affine: Affine,
+        context: Context,
+        items: &mut Vec<Item>,
+    ) -> Result<(), ReadError> {
+        self.refuse_huge(element, &outline, &affine)?;
+        let clips = context.clips.to_vec();
+        let bounds = outline.bounds(&affine);
+        let has_area = bounds.width() > 0.0 && bounds.height() > 0.0;
+        let fill = path.fill().filter(|fill| has_area && fill.opacity().get() > 0.0);
+        if let Some(fill) = fill {
+            let rule = fill.rule();
+            items.push(Item { element, outline: outline.clone(), affine, rule, clips: clips.clone() });
+        }
+        if context.kind == Kind::Clip {
+            return Ok(());
+        }
+        let Some(stroke) = path.stroke().filter(|s| s.opacity().get() > 0.0) else {
+            self.collection.found.unpainted += usize::from(fill.is_none());
+            return Ok(());
+        };
+        if self.strokes == Strokes::Areas {
+            let place = self.collection.elements.get(element as usize).cloned();
+            let (area, too_fine) = stroke::area(&outline, stroke);
+            if too_fine && let Some(place) = place {
+                self.collection.warnings.push(Warning { place, kind: WarningKind::DashesTooFine });
+            }
+            self.refuse_huge(element, &area, &affine)?;
+            items.push(Item { element, outline: Rc::new(area), affine, rule: usvg::FillRule::NonZero, clips });
+        } else if fill.is_none() {
+            self.collection.found.strokes += 1;
+            if let Some(place) = self.collection.elements.get(element as usize).cloned() {
+                self.collection.warnings.push(Warning { place, kind: WarningKind::StrokeOnly });
+            }
+        }
+        Ok(())
+    }
+
+    fn refuse_huge(&self, element: u32, outline: &Outline, affine: &Affine) -> Result<(), ReadError> {
+        let named = outline.points().flat_map(|p| [p, affine.apply(p)]).flat_map(|p| [p.x, p.y]);
+        match (largest(named), self.collection.elements.get(element as usize)) {
+            (Some(value), Some(place)) => Err(ReadError::Huge { place: place.clone(), value }),
+            _ => Ok(()),
+        }
+    }
+
+    fn text(&mut self, text: &usvg::Text, context: Context, items: &mut Vec<Item>) -> Result<(), ReadError> {
+        self.collection.seen.insert(text.id().to_owned());
+        let source = self.source;
+        let named = source.elements(text.id()).next();
+        // Under a `use` without its name: the text that stands there.
+        let texts = || source.document.descendants().filter(|n| n.tag_name().name() == "text");
+        let node = named.or_else(|| texts().find(|n| best(&self.placements(*n), &context.rough).is_some()));
+        let Some(node) = node.or_else(|| texts().next()) else { return Ok(()) };
+        let before = items.len();
+        let exact = best(&self.placements(node), &context.rough).map_or(context.rough, |(affine, _)| affine);
+        let kind = if context.kind == Kind::Clip { Kind::Clip } else { Kind::Text(self.element(node)) };
+        let outer = context.outer.then_inner(&exact);
+        let inside = Context { kind, outer, rough: Affine::IDENTITY, clips: context.clips };
+        self.children(text.flattened(), inside, items)?;
+        let words: String = text.chunks().iter().map(|c| c.text()).collect();
+        if items.len() == before && !words.trim().is_empty() {
+            self.collection.found.texts += 1;
+            self.warn(node, WarningKind::TextWithoutFont { text: words.trim().to_owned() });
+        }
+        Ok(())
+    }
+
+    fn warn(&mut self, node: Node, kind: WarningKind) {
+        if self.warned.insert((node.id(), std::mem::discriminant(&kind))) {
+            self.collection.warnings.push(Warning { place: self.source.place(node), kind });
+        }
+    }
+
+    fn element(&mut self, node: Node) -> u32 {
+        *self.elements.entry(node.id()).or_insert_with(|| {
+            self.collection.elements.push(self.source.place(node));
+            self.collection.elements.len() as u32 - 1
+        })
+    }
+
+    /// The element of the group, or of the first shape in it.
+    fn first_element(&self, group: &usvg::Group) -> Option<Node<'a, 'input>> {
+        if let Some(node) = self.source.elements(group.id()).next() {
+            return Some(node);
+        }
+        group.children().iter().find_map(|child| match child {
+            usvg::Node::Group(group) => self.first_element(group),
+            child => self.source.elements(child.id()).next(),
+        })
+    }
+
+    fn placements(&mut self, node: Node) -> Rc<Vec<Affine>> {
+        let source = self.source;
+        self.placements.entry(node.id()).or_insert_with(|| Rc::new(placements(source, node))).clone()
+    }
+
+    /// The exact map of a group that usvg knows roughly; the rough one where there is none.
+    fn exact_group(&mut self, rough: &Affine) -> Affine {
+        if *rough == Affine::IDENTITY {
+            return *rough;
+        }
+        let candidates = match &self.clipped {
+            Some(candidates) => candidates.clone(),
+            None => {
+                let can_clip =
+                    |n: &Node| matches!(n.tag_name().name(), "use" | "svg") || attribute(*n, "clip-path").is_some();
+                let nodes = self.source.document.descendants().filter(|n| n.is_element()).filter(can_clip);
+                /// A drawing with more clipped groups than this gets the rough maps.
+                const MAX_GROUPS: usize = 4096;
+                let all = nodes.take(MAX_GROUPS).flat_map(|n| placements(self.source, n)).take(MAX_GROUPS).collect();
+                let all: Rc<Vec<Affine>> = Rc::new(all);
+                self.clipped = Some(all.clone());
+                all
+            }
+        };
+        best(&candidates, rough).map_or(*rough, |(affine, _)| affine)
+    }
+
+    /// The shapes that `use` can bring in.
+    fn reusable(&mut self) -> Rc<Vec<Node<'a, 'input>>> {
+        let source = self.source;
+        let find = || {
+            let shapes = source.document.descendants().filter(|n| shape::SHAPES.contains(&n.tag_name().name()));
+            Rc::new(shapes.filter(|n| n.ancestors().any(|a| source.uses(a).next().is_some())).collect())
+        };
+        self.reusable.get_or_insert_with(find).clone()
+    }
+
+    fn shape(&mut self, node: Node) -> Option<Rc<Shape>> {
+        self.shapes.entry(node.id()).or_insert_with(|| shape::read(node).map(Rc::new)).clone()
+    }
+
+    /// The element that `path` stands for, read from the file.
+    fn locate(&mut self, path: &usvg::Path, rough: &Affine) -> Option<Located<'a, 'input>> {
+        let source = self.source;
+        let named = source.elements(path.id()).filter(|n| shape::SHAPES.contains(&n.tag_name().name()));
+        let mut nodes: Vec<Node> = named.collect();
+        // usvg takes the names away from what `use` brings in; and a name may be given twice: then the first that looks
+        // right and stands at the right place.
+        if path.id().is_empty() {
+            nodes = self.reusable().to_vec();
+        }
+        if nodes.len() > 1 || path.id().is_empty() {
+            nodes.retain(|node| self.shape(*node).is_none_or(|s| looks_like(&s.outline, path.data())));
+        }
+        let mut chosen: Option<(Node, Affine, f64)> = None;
+        for node in &nodes {
+            if let Some((affine, mismatch)) = best(&self.placements(*node), rough)
+                && chosen.is_none_or(|c| mismatch < c.2)
+            {
+                chosen = Some((*node, affine, mismatch));
+            }
+        }
+        let node = chosen.map(|c| c.0).or_else(|| source.elements(path.id()).next())?;
+        let shape = self.shape(node);
+        let is_round = matches!(node.tag_name().name(), "circle" | "ellipse");
+        let exact = shape.is_some() && chosen.is_some();
+        let cut_at = shape.as_ref().and_then(|s| s.cut_at);
+        let outline = match shape {
+            Some(shape) => shape.outline.clone(),
+            None => Rc::new(single_precision(path.data(), is_round)),
+        };
+        Some(Located { node, outline, affine: chosen.map_or(*rough, |c| c.1), exact, cut_at })
+    }
+}
+
+struct Located<'a, 'input> {
+    node: Node<'a, 'input>,
+    outline: Rc<Outline>,
+    affine: Affine,
+    exact: bool,
+    cut_at: Option<usize>,
+}
+
+/// Whether usvg's path can be this outline: every point where a command ends comes in it, in order.
+fn looks_like(outline: &Outline, path: &usvg::tiny_skia_path::Path) -> bool {
+    use usvg::tiny_skia_path::PathSegment;
+    /// Single precision, after a sum or two.
+    const ALIKE: f64 = 1e-6;
+    let b = path.bounds();
+    let size = [b.left(), b.top(), b.right(), b.bottom()].iter().fold(0.0f64, |m, x| m.max(f64::from(x.abs())));
+    let mut drawn = path.segments().filter_map(|s| match s {
+        PathSegment::MoveTo(p) | PathSegment::LineTo(p) | PathSegment::QuadTo(_, p) | PathSegment::CubicTo(_, _, p) => {
+            Some(Point::new(f64::from(p.x), f64::from(p.y)))
+        }
+        PathSegment::Close => None,
+    });
+    let alike = |p: Point, q: Point| (p - q).amax() <= ALIKE * size;
+    let mut ends = outline.subpaths.iter().filter(|s| !s.commands.is_empty()).flat_map(|s| {
+        std::iter::once((true, s.start)).chain(s.commands.iter().map(|c| (!matches!(c, Command::Arc(_)), c.end())))
+    });
+    // Only an arc may have points of its own in between.
+    let mut next = |exact: bool, p: Point| {
+        if exact { drawn.next().is_some_and(|q| alike(p, q)) } else { drawn.any(|q| alike(p, q)) }
+    };
+    ends.all(|(exact, p)| next(exact, p)) && drawn.next().is_none()
+}
+
+/// The first coordinate beyond what is taken for meant.
+pub(super) fn largest(mut values: impl Iterator<Item = f64>) -> Option<f64> {
+    values.find(|v| v.is_nan() || v.abs() > MAX_COORDINATE)
+}
+
+/// The exact map that agrees best with the rough one, and how well; `None` where none agrees.
+fn best(candidates: &[Affine], rough: &Affine) -> Option<(Affine, f64)> {
+    let rated = candidates.iter().map(|c| (*c, c.mismatch(rough))).filter(|c| c.1 <= 1.0);
+    rated.reduce(|a, b| if b.1 < a.1 { b } else { a })
+}
+
+/// usvg's outline, for what the file does not say in plain numbers.
+fn single_precision(path: &usvg::tiny_skia_path::Path, is_round: bool) -> Outline {
+    use usvg::tiny_skia_path::PathSegment;
+    if is_round {
+        // The four cubics of an ellipse touch its box.
+        let b = path.bounds();
+        let [l, t, r, b] = [b.left(), b.top(), b.right(), b.bottom()].map(decimal);
+        return Outline::ellipse(Point::new((l + r) / 2.0, (t + b) / 2.0), (r - l) / 2.0, (b - t) / 2.0);
+    }
+    let point = |p: usvg::tiny_skia_path::Point| Point::new(decimal(p.x), decimal(p.y));
+    let mut outline = Outline::default();
+    for segment in path.segments() {
+        match segment {
+            PathSegment::MoveTo(p) => outline.move_to(point(p)),
+            PathSegment::LineTo(p) => outline.push(Command::Line(point(p))),
+            PathSegment::QuadTo(c, p) => outline.push(Command::Quadratic(point(c), point(p))),
+            PathSegment::CubicTo(c, d, p) => outline.push(Command::Cubic(point(c), point(d), point(p))),
+            PathSegment::Close => outline.close(),
+        }
+    }
+    outline
+}
+
+/// The number that was meant by a number in single precision: the one with the fewest digits.
+pub(super) fn decimal(x: f32) -> f64 {
+    x.to_string().parse().unwrap_or(f64::from(x))
+}

@@ -1,0 +1,102 @@
+//! A drawing as read: the region, and where each of its vertices came from.
+
+use crate::plane::{Arc, Point, Region, VertexId};
+use crate::units::DrawingScale;
+
+use super::error::{Place, Warning};
+use super::viewport::Page;
+
+/// A drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// All filled shapes united, in user units of the root (those of the view box) with the y axis pointing up: a point
+    /// (x, y) of the file is (x, -y) here, both exact.
+    pub region: Region,
+    /// Millimetres in a user unit; `None` where neither the file nor the options say.
+    pub mm_per_unit: Option<f64>,
+    /// The page.
+    pub page: Page,
+    /// Where the vertices come from.
+    pub sources: Sources,
+    /// What was left out.
+    pub warnings: Vec<Warning>,
+}
+
+impl Drawing {
+    /// What lengths typed for this drawing are measured by.
+    pub fn scale(&self) -> DrawingScale {
+        DrawingScale { mm_per_unit: self.mm_per_unit, diagonal: self.region.bounds().diagonal() }
+    }
+}
+
+/// Where a vertex comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VertexSource {
+    /// Index in [`Sources::elements`].
+    pub element: u32,
+    /// The curve that it is an inner sample of: index in [`Sources::curves`] and number of the sample from 1. A vertex
+    /// at the end of a command has none.
+    pub sample: Option<(u32, u32)>,
+}
+
+/// A curve command of the file, in root user units with y up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve {
+    /// Index in [`Sources::elements`].
+    pub element: u32,
+    /// Its shape.
+    pub kind: CurveKind,
+    /// The vertex where it starts.
+    pub from: VertexId,
+    /// The vertex where it ends.
+    pub to: VertexId,
+    /// Its inner samples are the `inner` vertices from this index on.
+    pub first_inner: u32,
+    /// How many inner samples it has.
+    pub inner: u32,
+}
+
+/// The shape of a curve between its ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CurveKind {
+    /// A Bézier curve of degree 2 with its control point.
+    Quadratic(Point),
+    /// A Bézier curve of degree 3 with its control points.
+    Cubic(Point, Point),
+    /// Part of an ellipse, by SVG's numbers.
+    Elliptic {
+        /// The half axes.
+        radii: (f64, f64),
+        /// Direction of the first axis in degrees, clockwise as y points down in a file.
+        rotation: f64,
+        /// Whether it goes the long way round.
+        large_arc: bool,
+        /// Whether it runs clockwise as seen on the page.
+        sweep: bool,
+        /// The circle, where it is one and kept as arcs: its links are this one.
+        arc: Option<Arc>,
+    },
+}
+
+/// Where the vertices of a drawing come from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sources {
+    /// The elements that have vertices.
+    pub elements: Vec<Place>,
+    /// One for each [`VertexId`].
+    pub vertices: Vec<VertexSource>,
+    /// The curve commands.
+    pub curves: Vec<Curve>,
+}
+
+impl Sources {
+    /// Where a vertex comes from.
+    pub fn vertex(&self, id: VertexId) -> Option<VertexSource> {
+        self.vertices.get(id.index()).copied()
+    }
+
+    /// The element that a vertex belongs to.
+    pub fn place(&self, id: VertexId) -> Option<&Place> {
+        self.elements.get(self.vertex(id)?.element as usize)
+    }
+}

@@ -1,0 +1,88 @@
+//! The area that a stroke covers.
+
+use kurbo::{BezPath, Cap, Join, PathEl, Shape, StrokeOpts};
+
+use crate::plane::{Bounds, Point};
+
+use super::affine::Affine;
+use super::collect::decimal;
+use super::outline::{Command, Outline};
+
+/// How far the edge of a stroke may stray from the true offset curve, in parts of the larger of outline and width: a
+/// tenth of what sampling then adds.
+const OFFSET_ACCURACY: f64 = 2e-7;
+
+/// More dashes than this in one element are taken for a mistake.
+const MAX_DASHES: f64 = 100_000.0;
+
+/// The area covered by `stroke` along `outline`, to be filled by the nonzero rule, and whether its dashes were so fine
+/// that they are left out.
+pub(super) fn area(outline: &Outline, stroke: &usvg::Stroke) -> (Outline, bool) {
+    let width = decimal(stroke.width().get());
+    let join = match stroke.linejoin() {
+        usvg::LineJoin::Miter | usvg::LineJoin::MiterClip => Join::Miter,
+        usvg::LineJoin::Round => Join::Round,
+        usvg::LineJoin::Bevel => Join::Bevel,
+    };
+    let cap = match stroke.linecap() {
+        usvg::LineCap::Butt => Cap::Butt,
+        usvg::LineCap::Round => Cap::Round,
+        usvg::LineCap::Square => Cap::Square,
+    };
+    let bounds = outline.bounds(&Affine::IDENTITY);
+    let size = if bounds == Bounds::EMPTY { width } else { bounds.width().max(bounds.height()).max(width) };
+    let tolerance = OFFSET_ACCURACY * size;
+    let path = to_kurbo(outline, tolerance);
+    let mut style = kurbo::Stroke::new(width).with_join(join).with_caps(cap);
+    style = style.with_miter_limit(decimal(stroke.miterlimit().get()));
+    let mut too_fine = false;
+    if let Some(dashes) = stroke.dasharray() {
+        let dashes: Vec<f64> = dashes.iter().map(|&d| decimal(d)).collect();
+        let period: f64 = dashes.iter().sum();
+        too_fine = path.perimeter(tolerance * 1e3) > period / dashes.len() as f64 * MAX_DASHES;
+        if !too_fine {
+            style = style.with_dashes(decimal(stroke.dashoffset()), dashes);
+        }
+    }
+    let area = kurbo::stroke(path, &style, &StrokeOpts::default(), tolerance);
+    (from_kurbo(&area), too_fine)
+}
+
+fn to_kurbo(outline: &Outline, tolerance: f64) -> BezPath {
+    let k = |p: Point| kurbo::Point::new(p.x, p.y);
+    let mut path = BezPath::new();
+    for subpath in &outline.subpaths {
+        path.move_to(k(subpath.start));
+        for command in &subpath.commands {
+            match *command {
+                Command::Line(p) => path.line_to(k(p)),
+                Command::Quadratic(c, p) => path.quad_to(k(c), k(p)),
+                Command::Cubic(c, d, p) => path.curve_to(k(c), k(d), k(p)),
+                Command::Arc(arc) => {
+                    let radii = kurbo::Vec2::new(arc.rx, arc.ry);
+                    let arc_path = kurbo::Arc::new(k(arc.center), radii, arc.start, arc.sweep, arc.rotation);
+                    arc_path.to_cubic_beziers(tolerance, |c, d, p| path.curve_to(c, d, p));
+                }
+            }
+        }
+        if subpath.closed {
+            path.close_path();
+        }
+    }
+    path
+}
+
+fn from_kurbo(path: &BezPath) -> Outline {
+    let p = |k: kurbo::Point| Point::new(k.x, k.y);
+    let mut outline = Outline::default();
+    for element in path.elements() {
+        match *element {
+            PathEl::MoveTo(to) => outline.move_to(p(to)),
+            PathEl::LineTo(to) => outline.push(Command::Line(p(to))),
+            PathEl::QuadTo(c, to) => outline.push(Command::Quadratic(p(c), p(to))),
+            PathEl::CurveTo(c, d, to) => outline.push(Command::Cubic(p(c), p(d), p(to))),
+            PathEl::ClosePath => outline.close(),
+        }
+    }
+    outline
+}

@@ -1,0 +1,155 @@
+//! Rings that cross, resolved on an integer grid by `i_overlay`, every edge of the result knowing the link it is part of.
+
+use i_overlay::core::edge_data::{EdgeDataMerge, OverlayEdgeData};
+use i_overlay::core::edge_overlay::{EdgeOverlay, InputEdge};
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::ShapeType;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::segm::boolean::ShapeCountBoolean;
+use i_overlay::vector::edge::{SUBJ_LEFT, SUBJ_RIGHT};
+
+use std::f64::consts::TAU;
+
+use crate::plane::{Arc, Bounds, Link, Point, Ring, Segment, Turn, Vertex};
+
+use super::grid::{Cell, Grid};
+use super::{Rule, loops, restore};
+
+/// How far the chords that stand for an arc may stray from it, in parts of its radius (or of the drawing, if that is
+/// smaller). Decides only which crossings are seen; where they are is solved on the arcs.
+pub(super) const ARC_CHORDS: f64 = 1e-6;
+
+/// A link of the rings that are resolved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Source {
+    pub start: Vertex,
+    pub end: Vertex,
+    /// Numbers of the links before and after in the ring.
+    pub before: u32,
+    pub after: u32,
+}
+
+impl Source {
+    pub fn segment(&self) -> Segment {
+        Segment { start: self.start.point, end: self.end.point, link: self.start.link }
+    }
+}
+
+/// An edge of the result, solid on the left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Edge {
+    pub start: Cell,
+    pub end: Cell,
+    /// The link that it is part of.
+    pub source: u32,
+}
+
+/// The number of a link, carried through the overlay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Tag(u32);
+
+/// Not part of any link: the frame that gives the rings their surroundings.
+const FRAME: Tag = Tag(u32::MAX);
+
+impl OverlayEdgeData for Tag {
+    type Store = ();
+
+    fn merge(edges: EdgeDataMerge<ShapeCountBoolean, Tag>, _store: &mut ()) -> Tag {
+        Tag(edges.lhs_data.0.min(edges.rhs_data.0))
+    }
+}
+
+/// The boundary of what is solid, where `rings` meet each other and have the winding number `outside` around them.
+pub(super) fn resolve(rings: &[&Ring], rule: Rule, outside: i32, extent: f64) -> Vec<Ring> {
+    let bounds = rings.iter().fold(Bounds::EMPTY, |b, r| b.union(r.bounds()));
+    let grid = Grid::new(bounds, extent);
+    let sources = sources(rings);
+    let mut overlay = EdgeOverlay::<i64, Tag>::new(2 * sources.len());
+    let mut add = |a: Cell, b: Cell, data: Tag| overlay.add_edge(InputEdge { a, b, data }, ShapeType::Subject);
+    for (number, source) in sources.iter().enumerate() {
+        let mut from = grid.cell_of(source.start.point);
+        flatten(&source.segment(), extent, |p| {
+            let to = grid.cell_of(p);
+            add(from, to, Tag(number as u32));
+            from = to;
+        });
+    }
+    // What runs around the rings elsewhere runs around them here as a frame.
+    let (outside, fill_rule) = match rule {
+        Rule::NonZero => (outside, FillRule::NonZero),
+        Rule::EvenOdd => (outside % 2, FillRule::EvenOdd),
+        Rule::AtLeast(least) => (outside - least + 1, FillRule::Positive),
+    };
+    let frame = bounds.inflated(0.25 * extent);
+    let (min, max) = (grid.cell_of(frame.min), grid.cell_of(frame.max));
+    let corners = [min, Cell { x: max.x, y: min.y }, max, Cell { x: min.x, y: max.y }];
+    for _ in 0..outside.unsigned_abs() {
+        for k in 0..4 {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            if outside > 0 { add(a, b, FRAME) } else { add(b, a, FRAME) }
+        }
+    }
+    let vectors = overlay.build_vectors(OverlayRule::Subject, fill_rule);
+    let edges = vectors.into_iter().filter(|e| e.data != FRAME).filter_map(|e| {
+        let (left, right) = (e.fill & SUBJ_LEFT != 0, e.fill & SUBJ_RIGHT != 0);
+        let (start, end) = if left { (e.a, e.b) } else { (e.b, e.a) };
+        (left != right).then_some(Edge { start, end, source: e.data.0 })
+    });
+    let speck = super::SPECK * (extent / grid.cell()) * (extent / grid.cell());
+    let loops = loops::link(edges.collect()).into_iter().filter(|l| loops::area(l).abs() > speck);
+    restore::rings(loops, &sources, &grid, extent)
+}
+
+fn sources(rings: &[&Ring]) -> Vec<Source> {
+    let mut sources = Vec::with_capacity(rings.iter().map(|r| r.len()).sum());
+    for ring in rings {
+        let (first, n) = (sources.len(), ring.len());
+        let number = |k: usize| (first + k % n) as u32;
+        for k in 0..n {
+            let (start, end) = (ring.vertices[k], ring.vertices[(k + 1) % n]);
+            sources.push(Source { start, end, before: number(k + n - 1), after: number(k + 1) });
+        }
+    }
+    sources
+}
+
+/// The points after the start that stand for a link. Arcs of one circle are sampled at the same points of it, so that
+/// arcs which run over each other have chords which do.
+pub(super) fn flatten(segment: &Segment, extent: f64, mut emit: impl FnMut(Point)) {
+    if let Link::Arc(arc) = segment.link {
+        let step = sample_angle(&arc, extent);
+        let angle = |p: Point| (p.y - arc.center.y).atan2(p.x - arc.center.x);
+        let (from, sweep) = (angle(segment.start), segment.sweep());
+        let sample = |k: f64| {
+            let (sin, cos) = (k * step).sin_cos();
+            Point::new(arc.center.x + arc.radius * cos, arc.center.y + arc.radius * sin)
+        };
+        // Samples strictly inside, kept a little away from the ends.
+        const END_GAP: f64 = 0.01;
+        match arc.turn {
+            Turn::Left => {
+                let (mut k, last) = ((from / step + END_GAP).ceil(), (from + sweep) / step - END_GAP);
+                while k < last {
+                    emit(sample(k));
+                    k += 1.0;
+                }
+            }
+            Turn::Right => {
+                let (mut k, last) = ((from / step - END_GAP).floor(), (from - sweep) / step + END_GAP);
+                while k > last {
+                    emit(sample(k));
+                    k -= 1.0;
+                }
+            }
+        }
+    }
+    emit(segment.end);
+}
+
+/// The angle between samples of an arc: a whole number of them make a turn.
+fn sample_angle(arc: &Arc, extent: f64) -> f64 {
+    let tolerance = ARC_CHORDS * arc.radius.min(extent);
+    let step = 2.0 * (1.0 - tolerance / arc.radius).acos();
+    // An arc of a radius beyond all measure is straight.
+    if step > 0.0 { TAU / (TAU / step).ceil().max(8.0) } else { TAU }
+}

@@ -1,0 +1,118 @@
+use super::*;
+use crate::plane::{Arc, Link, Point, Region, Turn, Vertex, VertexId};
+
+fn polygon(points: &[(f64, f64)]) -> Ring {
+    let vertex = |(k, &(x, y))| Vertex { id: Some(VertexId::from_index(k)), ..Vertex::corner(Point::new(x, y)) };
+    Ring { vertices: points.iter().enumerate().map(vertex).collect() }
+}
+
+fn square(x: f64, y: f64, side: f64) -> Ring {
+    polygon(&[(x, y), (x + side, y), (x + side, y + side), (x, y + side)])
+}
+
+fn resolved(rings: Vec<Ring>, rule: Rule) -> Region {
+    Region::new(resolve(rings, rule))
+}
+
+#[test]
+fn rings_apart_pass_through_unchanged() {
+    let rings = vec![square(0.1, 0.2, 5.0), square(1.3, 1.3, 1.0), square(7.7, 0.0, 1.0)];
+    let result = resolved(rings.clone(), Rule::EvenOdd);
+    assert_eq!(result.rings[0], rings[0]);
+    assert_eq!(result.rings[1], rings[1].reversed());
+    assert_eq!(result.rings[2], rings[2]);
+    let result = resolved(rings, Rule::NonZero);
+    assert_eq!(result.topology(), crate::plane::TopologyCount { components: 2, holes: 0 });
+}
+
+#[test]
+fn overlapping_squares_unite_and_intersect_with_their_corners_kept() {
+    let rings = vec![square(0.1, 0.1, 3.0), square(2.1, 1.3, 3.0)];
+    for (rule, area) in [
+        (Rule::NonZero, 18.0 - 1.8),
+        (Rule::AtLeast(1), 18.0 - 1.8),
+        (Rule::AtLeast(2), 1.8),
+        (Rule::EvenOdd, 18.0 - 3.6),
+    ] {
+        let result = resolved(rings.clone(), rule);
+        assert!((result.area() - area).abs() < 1e-12, "{rule:?} {}", result.area());
+        let given: Vec<Point> = rings.iter().flat_map(|r| r.vertices.iter().map(|v| v.point)).collect();
+        let vertices = result.rings.iter().flat_map(|r| &r.vertices);
+        assert!(vertices.clone().all(|v| v.id.is_some() == given.contains(&v.point)));
+        assert!(vertices.filter(|v| v.id.is_none()).count() >= 2);
+    }
+}
+
+#[test]
+fn what_lies_around_a_crossing_counts() {
+    // Two overlapping squares inside a third: under the nonzero rule nothing of them is left.
+    let nested = || vec![square(0.0, 0.0, 10.0), square(1.0, 1.0, 3.0), square(2.0, 2.0, 3.0)];
+    assert_eq!(resolved(nested(), Rule::NonZero).rings.len(), 1);
+    let odd = resolved(nested(), Rule::EvenOdd);
+    assert!((odd.area() - 90.0).abs() < 1e-9, "{}", odd.area());
+    assert!((resolved(nested(), Rule::AtLeast(2)).area() - 14.0).abs() < 1e-9);
+    assert!((resolved(nested(), Rule::AtLeast(3)).area() - 4.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_star_follows_its_rule() {
+    let star = || vec![polygon(&[(50.0, -5.0), (76.45, -86.41), (7.2, -36.1), (92.8, -36.1), (23.55, -86.41)])];
+    let odd = resolved(star(), Rule::EvenOdd);
+    assert_eq!((odd.rings.len(), odd.topology().holes), (5, 0));
+    assert!(odd.rings.iter().all(|r| r.len() == 3));
+    let whole = resolved(star(), Rule::NonZero);
+    assert_eq!((whole.rings.len(), whole.rings[0].len()), (1, 10));
+    assert_eq!(whole.rings[0].vertices.iter().filter(|v| v.id.is_some()).count(), 5);
+}
+
+#[test]
+fn circles_that_overlap_keep_their_arcs() {
+    let rings = vec![Ring::circle(Point::new(0.0, 0.0), 5.0), Ring::circle(Point::new(6.0, 0.0), 5.0)];
+    let lens = 2.0 * (25.0 * 0.6f64.acos() - 12.0);
+    for (rule, area) in [(Rule::AtLeast(1), 50.0 * std::f64::consts::PI - lens), (Rule::AtLeast(2), lens)] {
+        let result = resolved(rings.clone(), rule);
+        assert!((result.area() - area).abs() < 1e-12 * area, "{} {area}", result.area());
+        let cuts = result.rings[0].vertices.iter().filter(|v| (v.point.x - 3.0).abs() < 1e-14);
+        assert_eq!(cuts.filter(|v| (v.point.y.abs() - 4.0).abs() < 1e-14).count(), 2);
+        assert!(result.rings[0].vertices.iter().all(|v| v.link != Link::Line));
+    }
+}
+
+#[test]
+fn the_same_ring_twice_is_the_ring() {
+    for ring in [square(0.3, 0.7, 1.1), Ring::circle(Point::new(0.3, 0.7), 1.1)] {
+        let result = resolve(vec![ring.clone(), ring.clone()], Rule::AtLeast(1));
+        assert_eq!(result.len(), 1);
+        assert!((result[0].area() - ring.area()).abs() < 1e-13);
+        let same = |v: &Vertex| ring.vertices.iter().any(|w| w.point == v.point && w.link == v.link);
+        assert!(result[0].vertices.iter().all(same), "{result:?}");
+        assert_eq!(result[0].len(), ring.len());
+    }
+}
+
+#[test]
+fn a_circle_cut_by_a_line_through_its_centre() {
+    let half = polygon(&[(-9.0, 0.0), (9.0, 0.0), (9.0, 9.0), (-9.0, 9.0)]);
+    let result = resolve(vec![half, Ring::circle(Point::new(0.0, 0.0), 2.0)], Rule::AtLeast(2));
+    assert_eq!(result.len(), 1);
+    assert!((result[0].area() - 2.0 * std::f64::consts::PI).abs() < 1e-12);
+    let arc = Arc { center: Point::new(0.0, 0.0), radius: 2.0, turn: Turn::Left };
+    assert_eq!(result[0].vertices.iter().filter(|v| v.link == Link::Arc(arc)).count(), 2);
+}
+
+#[test]
+fn squares_that_share_a_side_become_one() {
+    let result = resolve(vec![square(0.0, 0.0, 1.0), square(1.0, 0.0, 1.0)], Rule::AtLeast(1));
+    assert_eq!(result.len(), 1);
+    assert_eq!(result[0].area(), 2.0);
+    // Touching in a corner: two rings.
+    let result = resolve(vec![square(0.0, 0.0, 1.0), square(1.0, 1.0, 1.0)], Rule::AtLeast(1));
+    assert_eq!(result.len(), 2);
+}
+
+#[test]
+fn lines_there_and_back_vanish() {
+    let spike = polygon(&[(30.0, 30.0), (40.0, 30.0), (30.0, 30.0)]);
+    let line = polygon(&[(0.0, 0.0), (1.0, 1.0)]);
+    assert_eq!(resolve(vec![spike, line], Rule::NonZero), []);
+}

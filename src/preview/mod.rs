@@ -1,0 +1,33 @@
+//! Pictures of programs, as they were read back, and of outlines.
+//!
+//! The same input gives the same bytes.
+
+mod canvas;
+mod lettering;
+mod outline;
+mod palette;
+mod program;
+mod sheet;
+
+pub use outline::outline;
+pub use program::{Scene, program};
+pub use sheet::DEFAULT_SIZE;
+
+/// Why there is no picture.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PreviewError {
+    /// Nothing to show, or coordinates that are no numbers.
+    #[error("there is nothing to draw: the outlines and the program are empty, or their coordinates are not finite")]
+    Nothing,
+    /// A size that no picture can have.
+    #[error("a picture of {width} by {height} pixels cannot be made: choose a size from 64 to 16384")]
+    Size {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// The file could not be made.
+    #[error("the picture could not be encoded: {0}")]
+    Encoding(String),
+}

@@ -1,0 +1,182 @@
+//! The picture of a program: what it cuts, how, and what it leaves.
+
+use super::PreviewError;
+use super::outline::{short, split_moved};
+use super::palette;
+use super::sheet::{Entry, Sample, Sheet};
+use crate::cam::{Motion, MotionKind, Program};
+use crate::cam::{Uncut, statistics};
+use crate::plane::{Bounds, Region, Segment};
+
+/// What the picture of a program shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The program, read back.
+    pub program: &'a Program,
+    /// What must remain; `None` where only the program is known.
+    pub part: Option<&'a Region>,
+    /// The intended boundary of what remains.
+    pub kept: Option<&'a Region>,
+    /// What is left standing.
+    pub uncut: Option<&'a Uncut>,
+    /// Radius of the tool in millimetres; `None` where it is not known.
+    pub tool_radius: Option<f64>,
+    /// Where the top of the stock lies, z in millimetres.
+    pub stock_top: f64,
+}
+
+impl<'a> Scene<'a> {
+    /// A scene of a program alone, stock top at 0.
+    pub fn new(program: &'a Program) -> Scene<'a> {
+        Scene { program, part: None, kept: None, uncut: None, tool_radius: None, stock_top: 0.0 }
+    }
+}
+
+/// Boundaries of part and closing nearer than this, in millimetres, are the same.
+const SAME_BOUNDARY: f64 = 1e-4;
+
+/// Steps of colour between the top of the stock and the deepest pass.
+const DEPTH_STEPS: usize = 24;
+
+/// Circles are drawn around small uncut places where there are no more than this.
+const MOST_CIRCLES: usize = 16;
+
+/// The picture of `scene` as a PNG file of `size` pixels on its long side.
+///
+/// # Errors
+/// Where there is nothing to draw, or the size is absurd.
+pub fn program(scene: &Scene, size: u32) -> Result<Vec<u8>, PreviewError> {
+    let bounds = bounds(scene);
+    let depth = statistics(scene.program, scene.stock_top).depth_mm;
+    let mut sheet = Sheet::new(&bounds, size, legend(scene, depth, f64::from(size) / 1000.0))?;
+    let view = sheet.view;
+    let unit = sheet.unit;
+    let in_stock = || scene.program.motions.iter().filter(|m| m.is_in_stock(scene.stock_top));
+
+    if let Some(part) = scene.part {
+        sheet.canvas.fill(view.region(part).as_ref(), palette::PART, None);
+    }
+    if let Some(radius) = scene.tool_radius {
+        let swept = view.elements(in_stock().flat_map(Motion::trace));
+        sheet.canvas.stroke(swept.as_ref(), palette::SWATH, 2.0 * radius * view.scale, None);
+        for motion in in_stock().filter(|m| m.trace().next().is_none()) {
+            sheet.canvas.disk(view.pixel(motion.to.xy()), radius * view.scale, palette::SWATH);
+        }
+    }
+    draw_uncut(scene, &mut sheet);
+    if let Some(part) = scene.part {
+        let (on, off) = split_moved(part, scene.kept, SAME_BOUNDARY);
+        let moved = scene.kept.map(|kept| split_moved(kept, scene.part, SAME_BOUNDARY).1);
+        sheet.canvas.stroke(view.elements(off).as_ref(), palette::KEPT, 0.8 * unit, None);
+        sheet.canvas.stroke(view.elements(on).as_ref(), palette::KEPT, 1.5 * unit, None);
+        sheet.canvas.stroke(view.elements(moved.unwrap_or_default()).as_ref(), palette::MOVED, 2.0 * unit, None);
+    }
+    draw_path(scene, depth, &mut sheet);
+    let rapids = scene.program.motions.iter().filter(|m| m.is_rapid()).flat_map(Motion::trace);
+    let dash = Some([4.0 * unit, 3.0 * unit]);
+    sheet.canvas.stroke_dashed(view.elements(rapids).as_ref(), palette::RAPID, 0.8 * unit, dash, None);
+    for motion in in_stock().filter(|m| m.from.z >= scene.stock_top) {
+        let at = view.pixel(motion.from.xy());
+        sheet.canvas.disk(at, 4.2 * unit, palette::WHITE);
+        sheet.canvas.disk(at, 3.2 * unit, palette::START);
+    }
+    sheet.finish("mm")
+}
+
+/// What must be seen: the part and what the tool sweeps. Rapids may leave the picture.
+fn bounds(scene: &Scene) -> Bounds {
+    let regions = [scene.part, scene.kept].into_iter().flatten();
+    let outlines = regions.fold(Bounds::EMPTY, |b, r| b.union(r.bounds()));
+    let of_path = |only_cuts: bool| {
+        scene
+            .program
+            .motions
+            .iter()
+            .filter(|m| !only_cuts || m.is_in_stock(scene.stock_top))
+            .filter(|m| !matches!(m.kind, MotionKind::Dwell { .. }))
+            .fold(Bounds::EMPTY, |b, m| m.trace().fold(b.with_point(m.to.xy()), |b, s| b.union(s.bounds())))
+    };
+    let path = of_path(true);
+    let radius = scene.tool_radius.filter(|r| r.is_finite()).unwrap_or(0.0);
+    let cut = if path.is_empty() { path } else { path.inflated(radius) };
+    let all = outlines.union(cut);
+    if all.is_empty() { of_path(false) } else { all }
+}
+
+fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    let mut add = |sample, text: String| entries.push(Entry { sample, text });
+    if let Some(part) = scene.part {
+        let b = part.bounds();
+        add(Sample::Fill(palette::PART, None), format!("part {} x {} mm", short(b.width()), short(b.height())));
+        add(Sample::Line(palette::KEPT, 1.5 * unit), "outline".to_owned());
+    }
+    if scene.kept.is_some() {
+        add(Sample::Line(palette::MOVED, 2.0 * unit), "rounded".to_owned());
+    }
+    if let Some(uncut) = scene.uncut.filter(|u| !u.places.is_empty()) {
+        let text = format!("uncut {} mm²", short(uncut.area_mm2));
+        add(Sample::Fill(palette::UNCUT, Some(palette::UNCUT_LINE)), text);
+    }
+    if let Some(radius) = scene.tool_radius {
+        add(Sample::Fill(palette::SWATH, None), format!("tool {} mm", thousandths(2.0 * radius)));
+    }
+    if depth > 0.0 {
+        let colors = (0..=DEPTH_STEPS).map(|k| palette::depth(k as f64 / DEPTH_STEPS as f64)).collect();
+        add(Sample::Ramp(colors), format!("path, 0 to {} mm deep", short(depth)));
+    }
+    if scene.program.motions.iter().any(Motion::is_rapid) {
+        add(Sample::Dashed(palette::RAPID), "rapid".to_owned());
+    }
+    if scene.program.motions.iter().any(|m| m.is_in_stock(scene.stock_top)) {
+        add(Sample::Dot(palette::START), "entry".to_owned());
+    }
+    entries
+}
+
+fn thousandths(length: f64) -> String {
+    format!("{length:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn draw_uncut(scene: &Scene, sheet: &mut Sheet) {
+    let Some(uncut) = scene.uncut else { return };
+    let view = sheet.view;
+    let unit = sheet.unit;
+    let path = view.polygons(uncut.places.iter().flat_map(|p| &p.outlines));
+    let Some(mask) = sheet.canvas.mask(path.as_ref()) else { return };
+    sheet.canvas.fill(path.as_ref(), palette::UNCUT, None);
+    sheet.canvas.hatch(palette::UNCUT_LINE, 6.0 * unit, 1.2 * unit, Some(&mask));
+    sheet.canvas.stroke(path.as_ref(), palette::UNCUT_LINE, 0.8 * unit, None);
+    if uncut.places.len() > MOST_CIRCLES {
+        return;
+    }
+    for place in &uncut.places {
+        let b = Bounds::of_points(place.outlines.iter().flatten().copied());
+        let size = 0.5 * b.diagonal() * view.scale;
+        let least = 9.0 * unit;
+        if size < least {
+            sheet.canvas.circle(view.pixel(b.center()), least, palette::UNCUT_LINE, 1.2 * unit);
+        }
+    }
+}
+
+/// The path of the tool's centre: deeper passes darker and thinner, above the shallower ones, so that all are seen.
+fn draw_path(scene: &Scene, depth: f64, sheet: &mut Sheet) {
+    let view = sheet.view;
+    let unit = sheet.unit;
+    let mut steps: Vec<Vec<Segment>> = vec![Vec::new(); DEPTH_STEPS + 1];
+    for motion in scene.program.motions.iter().filter(|m| m.is_feed()) {
+        let below = scene.stock_top - 0.5 * (motion.from.z + motion.to.z);
+        let t = if depth > 0.0 { (below / depth).clamp(0.0, 1.0) } else { 0.0 };
+        let t = if t.is_finite() { t } else { 0.0 };
+        steps[(t * DEPTH_STEPS as f64).round() as usize].extend(motion.trace());
+    }
+    let used = steps.iter().filter(|s| !s.is_empty()).count();
+    let mut rank = 0;
+    for (k, elements) in steps.into_iter().enumerate().filter(|(_, s)| !s.is_empty()) {
+        rank += 1;
+        let width = 1.4 + 4.0 * (used - rank) as f64 / used as f64;
+        let color = palette::depth(k as f64 / DEPTH_STEPS as f64);
+        sheet.canvas.stroke(view.elements(elements).as_ref(), color, width * unit, None);
+    }
+}

@@ -1,0 +1,370 @@
+//! The morphological closing, exactly: what a disk in the plane cannot reach, whatever the way along the curve.
+//!
+//! Let D be the input dilated by the disk; its boundary is part of the locus. Stages:
+//!
+//! 1. The locus at a radius smaller by [`SHRINK`], so that gaps of exactly one diameter stay open.
+//! 2. Its crossings. At each, the boundary of D can only enter by one of the two pieces and leave by the other.
+//! 3. Walks along the stretches between crossings that obey this rule.
+//! 4. A walk bounds free space, or lies in D: distances to the input tell. The distances of *all* stretches are held
+//!    against the walks; a contradiction means that a crossing was misjudged by rounding, and the whole is done again at
+//!    a radius that differs in the ninth digit ([`ATTEMPTS`]).
+//! 5. Back to the boundary: a piece of the locus goes to the element it touched, bit for bit; a crossing is a centre
+//!    where the disk touches two elements, and gives a new arc from foot to foot. Centres are solved at the exact radius.
+//! 6. In a thin neck filled from both sides the new arcs cross each other: see [`super::trim`].
+
+use super::carrier::Carrier;
+use super::crossings::crossings;
+use super::locus::{Locus, Piece, RING_SPREAD, TINY, Touch};
+use super::loops::{Event, Itinerary};
+use super::track::Track;
+use super::trim::{Knot, Tip, trim};
+use crate::plane::{Arc, BoundaryIndex, Link, Point, Region, Ring, Turn, Vertex, VertexId};
+
+/// How much smaller the disk of the locus is: gaps within this of one diameter count as open, always.
+pub(super) const SHRINK: f64 = 1e-8;
+
+/// How often the merge is tried, each time with another radius near r (1 - SHRINK).
+const ATTEMPTS: u32 = 6;
+
+/// A sample of the locus nearer to the input than the disk by more than this, relative to the radius, lies in D.
+const INSIDE: f64 = 3e-9;
+
+/// How many units of the coordinates' last place a distance may be off.
+pub(super) const ROUNDING_STEPS: f64 = 32.0;
+
+/// A stretch of the locus shorter than this, relative to the radius, is too near to its crossings for its distance to
+/// contradict anything.
+const TELLING: f64 = 1e-4;
+
+/// A centre solved at the exact radius lies at most this far, relative to it, from the crossing: sqrt(2 SHRINK) for
+/// carriers that touch, with room.
+const SAME_CENTER: f64 = 1e-3;
+
+/// A foot this near to the end of its link, relative to the radius, is the end: the arc then misses its tangent by half
+/// the square of it.
+const SNAP: f64 = 1e-7;
+
+/// Samples that decide on a ring or a walk.
+const SAMPLES: usize = 16;
+
+/// The result of a merge.
+#[derive(Clone, Debug)]
+pub(super) struct Merged {
+    pub(super) region: Region,
+    /// Stretches of the locus whose distance contradicts what was made of them. Zero proves the combinatorics.
+    pub(super) contradictions: usize,
+    /// Centres of the disk where it touches two elements that are no neighbours on one ring.
+    pub(super) bridges: Vec<Point>,
+}
+
+/// The morphological closing of `raw` by a disk of radius `r`. `prepared` is `raw` or any region between it and its
+/// closing. Coordinates are known to `resolution`.
+pub(super) fn merge(prepared: &Region, raw: &Region, r: f64, resolution: f64) -> Merged {
+    let solid = Solid::new(raw);
+    let mut best: Option<Merged> = None;
+    for attempt in 0..ATTEMPTS {
+        // Incommensurable steps: no coincidence survives two attempts.
+        let shrink = SHRINK * (1.0 + 0.381_966 * f64::from(attempt));
+        let merged = Attempt::new(prepared, &solid, r, r * (1.0 - shrink), resolution).run();
+        let settled = merged.contradictions == 0;
+        if best.as_ref().is_none_or(|b| merged.contradictions < b.contradictions) {
+            best = Some(merged);
+        }
+        if settled {
+            break;
+        }
+    }
+    best.unwrap_or_else(|| Merged { region: prepared.clone(), contradictions: 1, bridges: vec![] })
+}
+
+/// Where the result of a scan along the curves may differ from the morphological closing of `raw`: crossings of the
+/// locus, and a point of every ring whose locus lies in D as a whole.
+pub(super) fn differences(scanned: &Region, raw: &Region, r: f64, resolution: f64) -> Vec<Point> {
+    let solid = Solid::new(raw);
+    let mut attempt = Attempt::new(scanned, &solid, r, r * (1.0 - SHRINK), resolution);
+    let mut places: Vec<Point> = attempt.events.iter().step_by(2).map(|e| e.point).collect();
+    for (ring, verdict) in scanned.rings.iter().zip(attempt.ring_verdicts()) {
+        if verdict == Some(Verdict::Covered) {
+            places.extend(ring.vertices.first().map(|v| v.point));
+        }
+    }
+    places
+}
+
+/// What distances say of a sample of the locus.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    /// On the boundary of D.
+    Free,
+    /// Inside D.
+    Covered,
+}
+
+/// The input, for questions of distance.
+struct Solid {
+    index: BoundaryIndex,
+    /// 1 where the plane far away is solid, as it is when an opening is computed as the closing of the empty part.
+    far_winding: i32,
+}
+
+impl Solid {
+    fn new(raw: &Region) -> Solid {
+        Solid { index: BoundaryIndex::new(raw), far_winding: i32::from(raw.area() < 0.0) }
+    }
+
+    /// Whether the disk of radius `limit` about `p` is free of solid.
+    fn leaves_free(&self, p: Point, limit: f64) -> bool {
+        // Where boundaries touch, the locus of one can run far from both through the solid of the other.
+        !self.index.is_nearer(p, limit) && self.index.winding_number(p) + self.far_winding <= 0
+    }
+}
+
+struct Attempt<'a> {
+    region: &'a Region,
+    solid: &'a Solid,
+    r: f64,
+    /// Below this distance to the input a sample lies in D.
+    limit: f64,
+    locus: Locus,
+    events: Vec<Event>,
+    itinerary: Itinerary,
+    centers: Vec<Option<Point>>,
+    contradictions: usize,
+}
+
+impl<'a> Attempt<'a> {
+    fn new(region: &'a Region, solid: &'a Solid, r: f64, locus_radius: f64, resolution: f64) -> Attempt<'a> {
+        let locus = Locus::new(region, locus_radius, ROUNDING_STEPS * resolution);
+        let events = crossings(&locus, r);
+        let itinerary = Itinerary::new(&events, |p| locus.pieces[p as usize].ring);
+        let limit = locus_radius - (INSIDE + TINY + RING_SPREAD) * r - 2.0 * ROUNDING_STEPS * resolution;
+        let centers = vec![None; events.len()];
+        Attempt { region, solid, r, limit, locus, events, itinerary, centers, contradictions: 0 }
+    }
+
+    fn run(mut self) -> Merged {
+        let walks = self.itinerary.walks(&self.events, true);
+        let mut in_kept_walk = vec![false; self.events.len()];
+        let mut kept = vec![];
+        for walk in walks {
+            if self.walk_is_free(&walk) {
+                walk.iter().for_each(|&e| in_kept_walk[e as usize] = true);
+                kept.push(walk);
+            }
+        }
+        self.hold_against_distances(&in_kept_walk);
+        let mut rings = self.rings_without_crossings();
+        let mut bridges = vec![];
+        for walk in &kept {
+            let ring = self.emit(walk, &mut bridges);
+            if !ring.is_empty() {
+                rings.push(ring);
+            }
+        }
+        let tips = self.facing_tips(&in_kept_walk);
+        let trimmed = trim(rings, &tips, self.r);
+        Merged {
+            region: Region::new(trimmed.rings),
+            contradictions: self.contradictions + trimmed.contradictions,
+            bridges,
+        }
+    }
+
+    fn piece(&self, e: u32) -> &Piece {
+        &self.locus.pieces[self.events[e as usize].piece as usize]
+    }
+
+    fn next(&self, e: u32) -> u32 {
+        self.itinerary.next[e as usize]
+    }
+
+    /// Whether the stretch from `e` to the next event lies on one piece.
+    fn on_one_piece(&self, e: u32) -> bool {
+        let (from, to) = (&self.events[e as usize], &self.events[self.next(e) as usize]);
+        from.piece == to.piece && to.at > from.at
+    }
+
+    fn verdict(&self, p: Point) -> Verdict {
+        if self.solid.leaves_free(p, self.limit) { Verdict::Free } else { Verdict::Covered }
+    }
+
+    /// A point well inside the stretch from `e` to the next event, and the length it stands for.
+    fn sample(&self, e: u32) -> (Point, f64) {
+        let (from, to) = (&self.events[e as usize], &self.events[self.next(e) as usize]);
+        let (first, last) = (&self.locus.pieces[from.piece as usize], &self.locus.pieces[to.piece as usize]);
+        let scale = |p: &Piece| if p.bend == 0.0 { 1.0 } else { p.radius };
+        if self.on_one_piece(e) {
+            return (first.at(0.5 * (from.at + to.at)), (to.at - from.at) * scale(first));
+        }
+        let head = (first.extent() - from.at) * scale(first);
+        let tail = to.at * scale(last);
+        let mut best = if head >= tail {
+            (first.at(0.5 * (from.at + first.extent())), head)
+        } else {
+            (last.at(0.5 * to.at), tail)
+        };
+        // A few whole pieces in between: the longest is the most telling.
+        let ring = &self.locus.rings[first.ring as usize];
+        let n = ring.end - ring.start;
+        let between = (to.piece + n - from.piece + n - 1) % n;
+        const LOOKED_AT: u32 = 8;
+        for k in 0..between.min(LOOKED_AT) {
+            let step = 1 + k * between / between.min(LOOKED_AT);
+            let piece = &self.locus.pieces[(ring.start + (from.piece - ring.start + step) % n) as usize];
+            let length = piece.length();
+            if length > best.1 {
+                best = (piece.at(0.5 * piece.extent()), length);
+            }
+        }
+        best
+    }
+
+    fn walk_is_free(&self, walk: &[u32]) -> bool {
+        let step = walk.len().div_ceil(SAMPLES);
+        walk.iter().step_by(step).all(|&e| self.verdict(self.sample(e).0) == Verdict::Free)
+    }
+
+    /// Every stretch must be free if it is kept and covered if it is not, where it is long enough to tell.
+    fn hold_against_distances(&mut self, in_kept_walk: &[bool]) {
+        for e in 0..self.events.len() as u32 {
+            let (p, length) = self.sample(e);
+            if length > TELLING * self.r && (self.verdict(p) == Verdict::Free) != in_kept_walk[e as usize] {
+                self.contradictions += 1;
+            }
+        }
+    }
+
+    /// What becomes of each ring as a whole: nothing is known of one whose locus has crossings. Samples of one ring
+    /// that disagree are a contradiction.
+    fn ring_verdicts(&mut self) -> Vec<Option<Verdict>> {
+        let mut crossed = vec![false; self.region.rings.len()];
+        for e in &self.events {
+            crossed[self.locus.pieces[e.piece as usize].ring as usize] = true;
+        }
+        let mut verdicts = vec![None; crossed.len()];
+        for (k, range) in self.locus.rings.iter().enumerate().filter(|(k, _)| !crossed[*k]) {
+            let step = range.len().div_ceil(SAMPLES).max(1);
+            let samples = range.clone().step_by(step).map(|k| &self.locus.pieces[k as usize]);
+            let free = samples.clone().filter(|p| self.verdict(p.at(0.5 * p.extent())) == Verdict::Free).count();
+            let covered = samples.count() - free;
+            self.contradictions += free.min(covered);
+            verdicts[k] = Some(if free >= covered { Verdict::Free } else { Verdict::Covered });
+        }
+        verdicts
+    }
+
+    /// Rings whose locus crosses nothing and is free: they stay as they are.
+    fn rings_without_crossings(&mut self) -> Vec<Vec<Knot>> {
+        let verdicts = self.ring_verdicts();
+        let whole = self.region.rings.iter().zip(verdicts).zip(&self.locus.rings);
+        whole
+            .filter(|((_, verdict), range)| *verdict == Some(Verdict::Free) && !range.is_empty())
+            .map(|((ring, _), _)| ring.vertices.iter().map(|&vertex| Knot { vertex, born: None }).collect())
+            .collect()
+    }
+
+    /// The centre of the disk at the crossing of `e`, at the exact radius.
+    fn center(&mut self, e: u32) -> Point {
+        if let Some(center) = self.centers[e as usize] {
+            return center;
+        }
+        let event = self.events[e as usize];
+        let carrier = |e: u32| -> Carrier { Locus::carrier(self.piece(e), self.region, self.r) };
+        let roots = carrier(e).roots(&carrier(event.twin), SAME_CENTER * self.r);
+        let near = |c: &Point| (c - event.point).norm() <= SAME_CENTER * self.r;
+        let center = roots.nearest(event.point).filter(near).unwrap_or(event.point);
+        self.centers[e as usize] = Some(center);
+        self.centers[event.twin as usize] = Some(center);
+        center
+    }
+
+    /// The boundary that belongs to a walk of centres.
+    fn emit(&mut self, walk: &[u32], bridges: &mut Vec<Point>) -> Vec<Knot> {
+        let mut knots: Vec<Knot> = vec![];
+        for &e in walk {
+            let f = self.next(e);
+            let (start, end) = (self.center(e), self.center(f));
+            bridges.push(end);
+            let (first, last) = (*self.piece(e), *self.piece(f));
+            let ring = &self.region.rings[first.ring as usize];
+            let n = ring.len();
+            let same = self.on_one_piece(e);
+            let (i, j) = (first.node as usize, last.node as usize);
+            if first.touch == Touch::Link {
+                let (point, id) = self.foot(ring, i, start);
+                if same || point != ring.vertices[(i + 1) % n].point {
+                    let vertex = Vertex { point, id, ..ring.vertices[i] };
+                    knots.push(Knot { vertex, born: None });
+                }
+            }
+            let from = if first.touch == Touch::Vertex { i } else { (i + 1) % n };
+            let count = match (same, first.touch, last.touch) {
+                (true, Touch::Vertex, _) => 1,
+                (true, _, _) => 0,
+                // Back to the vertex where it began: the whole ring lies between.
+                (false, Touch::Vertex, Touch::Vertex) if i == j => n + 1,
+                _ => (j + n - from) % n + 1,
+            };
+            for k in 0..count {
+                knots.push(Knot { vertex: ring.vertices[(from + k) % n], born: None });
+            }
+            let arc = Link::Arc(Arc { center: end, radius: self.r, turn: Turn::Right });
+            if last.touch == Touch::Link {
+                let (point, id) = self.foot(ring, j, end);
+                if knots.last().is_none_or(|k| k.vertex.point != point) {
+                    knots.push(Knot { vertex: Vertex { id, ..Vertex::corner(point) }, born: None });
+                }
+            }
+            if let Some(knot) = knots.last_mut() {
+                knot.vertex.link = arc;
+                knot.born = Some(f);
+            }
+        }
+        knots
+    }
+
+    /// Where the disk about `center` touches the link that leaves vertex `i`; an end of the link keeps its identity.
+    fn foot(&self, ring: &Ring, i: usize, center: Point) -> (Point, Option<VertexId>) {
+        let track = Track::new(ring.segment(i));
+        let contact = track.contact(center);
+        let snap = SNAP * self.r;
+        let end = |v: &Vertex| (v.point, v.id);
+        if contact.at <= snap {
+            end(&ring.vertices[i])
+        } else if contact.at >= track.length - snap {
+            end(&ring.vertices[(i + 1) % ring.len()])
+        } else {
+            (contact.point, None)
+        }
+    }
+
+    /// Vertices where a kept stretch ends and the next one starts less than half a turn further: the two new arcs
+    /// there point at each other.
+    fn facing_tips(&self, in_kept_walk: &[bool]) -> Vec<Tip> {
+        let mut ends_kept = vec![false; self.events.len()];
+        for e in 0..self.events.len() as u32 {
+            if in_kept_walk[e as usize] {
+                ends_kept[self.next(e) as usize] = true;
+            }
+        }
+        let mut tips = vec![];
+        let mut ended: Option<u32> = None;
+        for &e in &self.itinerary.order {
+            if self.piece(e).touch != Touch::Vertex {
+                continue;
+            }
+            if ends_kept[e as usize] {
+                ended = Some(e);
+            }
+            if in_kept_walk[e as usize]
+                && let Some(f) = ended.take()
+            {
+                let (a, b) = (&self.events[f as usize], &self.events[e as usize]);
+                if a.piece == b.piece && b.at - a.at < std::f64::consts::PI {
+                    tips.push(Tip { leaving: f, arriving: b.twin });
+                }
+            }
+        }
+        tips
+    }
+}

@@ -1,0 +1,130 @@
+//! The limit of the flow, directly: a disk rolls on the outline.
+//!
+//! The flow of the paper (eq. 7) ends where every curvature is at least -1/r. For a curve that state is known in closed
+//! form: untouched pieces of the input, joined by arcs of radius r. So no time step, no edge length and no remeshing
+//! are needed: what does not move is the input, bit for bit; what moves is exact arcs.
+//!
+//! Two meanings ([`Topology`]): *keep* is the limit of the flow, which sees distance along the curve; *merge* is the
+//! morphological closing, which sees distance in the plane. Where the locus of the disk's centre does not cross itself
+//! the two agree ([`Outcome::differences`] is empty).
+
+mod carrier;
+mod crossings;
+mod locus;
+mod loops;
+mod merge;
+mod scan;
+mod track;
+mod trim;
+
+use crate::plane::{Bounds, Link, Point, Region, Vector};
+use crate::units::Radius;
+
+/// What closing means where components come near each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Topology {
+    /// The morphological closing, as a cutter sees it: components merge, holes fill, narrow inlets close.
+    Merge,
+    /// The flow's own limit: every ring by itself, measured along the curve.
+    Keep,
+}
+
+/// A closed or opened region, with what is known of it.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The result. Vertices that did not move have the point and the identity that they had.
+    pub region: Region,
+    /// Places (centres of the disk) where the locus crosses itself: there the two meanings of [`Topology`] may differ.
+    /// Empty: they agree, proved by the absence of crossings.
+    pub differences: Vec<Point>,
+    /// Places where distances contradict the combinatorics of a merge, zero for a proved result.
+    pub contradictions: usize,
+}
+
+/// The closing of `region` by a disk of radius `radius`, in the units of the region.
+pub fn close(region: &Region, radius: Radius, topology: Topology) -> Outcome {
+    let r = radius.get();
+    // Far from the origin coordinates have few digits left for a small radius. The shift is exact both ways for every
+    // vertex that stays.
+    let bounds = region.bounds();
+    let shift = exact_shift(&bounds);
+    let farthest = bounds.min.coords.abs().max().max(bounds.max.coords.abs().max());
+    let resolution = if farthest.is_finite() { f64::EPSILON * farthest } else { 0.0 };
+    let run = |region: &Region| match topology {
+        Topology::Merge => close_merged(region, r, resolution),
+        Topology::Keep => close_along(region, r, resolution),
+    };
+    if shift == Vector::zeros() {
+        return run(region);
+    }
+    let mut outcome = run(&region.translated(-shift));
+    outcome.region = outcome.region.translated(shift);
+    outcome.differences.iter_mut().for_each(|p| *p += shift);
+    outcome
+}
+
+/// The opening of `region`: the closing of what is empty.
+pub fn open(region: &Region, radius: Radius, topology: Topology) -> Outcome {
+    let outcome = close(&region.reversed(), radius, topology);
+    Outcome { region: outcome.region.reversed(), ..outcome }
+}
+
+fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
+    // What an unfinished scan leaves undone the merge does.
+    let (prepared, _) = scan_rings(region, r, scan::Mode::Safe, resolution);
+    let merged = merge::merge(&prepared, region, r, resolution);
+    Outcome { region: merged.region, differences: merged.bridges, contradictions: merged.contradictions }
+}
+
+fn close_along(region: &Region, r: f64, resolution: f64) -> Outcome {
+    let (scanned, unfinished) = scan_rings(region, r, scan::Mode::Geodesic, resolution);
+    let mut differences = merge::differences(&scanned, region, r, resolution);
+    differences.extend(unfinished);
+    Outcome { region: scanned, differences, contradictions: 0 }
+}
+
+/// The scanned rings, and a point of every ring whose scan did not come to its end.
+fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> (Region, Vec<Point>) {
+    let mut unfinished = vec![];
+    let rings = region.rings.iter().filter_map(|ring| {
+        let scan::Scan { ring: scanned, finished } = scan::scan(ring, r, mode, resolution);
+        if !finished {
+            unfinished.extend(ring.vertices.first().map(|v| v.point));
+        }
+        if !scanned.is_empty() {
+            Some(scanned)
+        } else {
+            // A hole that vanishes is filled; material never vanishes in a closing.
+            (ring.area() > 0.0).then(|| ring.clone())
+        }
+    });
+    (Region::new(rings.collect()), unfinished)
+}
+
+/// A displacement that brings the region near the origin without rounding any coordinate, or zero.
+fn exact_shift(bounds: &Bounds) -> Vector {
+    if bounds.is_empty() {
+        return Vector::zeros();
+    }
+    let axis = |min: f64, max: f64| {
+        let (center, extent) = (0.5 * (min + max), max - min);
+        // From here on every coordinate keeps its last digit when a multiple of a large power of two is taken off.
+        if center.abs() < 4.0 * extent || !center.is_finite() {
+            return 0.0;
+        }
+        let grain = extent.max(f64::MIN_POSITIVE).log2().ceil().exp2();
+        (center / grain).round() * grain
+    };
+    Vector::new(axis(bounds.min.x, bounds.max.x), axis(bounds.min.y, bounds.max.y))
+}
+
+/// The smallest radius at which the region bends towards the empty side, infinite where it does not: what a disk that
+/// rolls on the right of it has to fit into. Corners count as zero.
+pub fn smallest_concave_radius(region: &Region) -> f64 {
+    let arcs = region.segments().filter_map(|s| match s.link {
+        Link::Arc(arc) if arc.turn == crate::plane::Turn::Right => Some(arc.radius),
+        _ => None,
+    });
+    arcs.fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,664 @@
+//! The local half of the closing: a disk rolls along one ring and cuts every corner it does not fit into.
+//!
+//! Stages: every vertex becomes a node of a doubly linked ring; nodes where the boundary turns away from the disk by
+//! more than it can follow (the *excess* is positive) wait in a queue; each is replaced by an arc of the disk, which
+//! can only raise the excess of its neighbours. Every operation moves the boundary outward, so the end state is a least
+//! fixed point and does not depend on the order.
+//!
+//! [`Mode::Safe`] refuses every operation that could fill more than the morphological closing does; what it leaves
+//! undone the merge finishes. [`Mode::Geodesic`] measures distance along the curve, as the
+//! flow of the paper does (eq. 7): its end state is the limit of that flow.
+//!
+//! Tolerances, all relative to the radius: [`MIN_LINK`] along the boundary, [`MIN_EXCESS`] in radians,
+//! [`HIDDEN`] across it.
+
+use std::collections::VecDeque;
+use std::f64::consts::{PI, TAU};
+
+use super::carrier::{center_of_chord, circle_circle, line_circle};
+use super::merge::{ROUNDING_STEPS, SHRINK};
+use super::track::{Contact, Track};
+use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex, right_normal, turn_angle};
+
+/// A contact nearer than this to the end of a link, relative to the radius, is at the end. An error of this size along
+/// a tangent moves the boundary by half its square: 1e-14 r.
+const MIN_LINK: f64 = 1e-7;
+
+/// Vertices nearer to each other than this, relative to the radius, are one where the disk cannot follow: their link
+/// has no direction. It bounds the only inward error of the scan.
+const COINCIDENT: f64 = 1e-11;
+
+/// Turns below this (radians) are rounding: an arc of the disk this short moves the boundary by 1e-19 r.
+const MIN_EXCESS: f64 = 1e-9;
+
+/// A node may vanish under a new arc only where the disk is at least this near to holding no part of it, relative to
+/// the radius. It bounds the containment error.
+const HIDDEN: f64 = 1e-10;
+
+/// The excess above which a pocket winds back on itself so far that a local operation may be wrong.
+const SAFE_EXCESS: f64 = 3.1;
+
+/// The excess of a node that stays in place never falls; a fall by more than this is a turn that passed π.
+const WRAPPED: f64 = 1.0;
+
+/// Operations allowed: measured, 1.2 to 1.5 a vertex even where nearly all move.
+const OPERATIONS_PER_VERTEX: usize = 200;
+
+/// What the scan may take for granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// Fill only what the morphological closing fills.
+    Safe,
+    /// Fill what the flow fills, which sees distance along the curve only.
+    Geodesic,
+}
+
+/// The scanned ring.
+#[derive(Clone, Debug)]
+pub(super) struct Scan {
+    /// The ring with its new arcs; empty where the disk fits nowhere in a hole.
+    pub(super) ring: Ring,
+    /// Whether the scan came to its end; operations left undone to be safe do not count.
+    pub(super) finished: bool,
+}
+
+/// Rolls a disk of radius `r` along the right side of `ring`, whose coordinates are known to `resolution`.
+pub(super) fn scan(ring: &Ring, r: f64, mode: Mode, resolution: f64) -> Scan {
+    let mut roller = Roller::new(ring, r, mode, resolution);
+    roller.run();
+    roller.finish()
+}
+
+/// The outgoing link of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LinkKind {
+    Line,
+    /// A minor arc of the disk, centre on the right.
+    Rolling,
+    /// (Part of) the input arc that leaves this vertex of the ring.
+    Input(u32),
+}
+
+#[derive(Clone, Debug)]
+struct Node {
+    point: Point,
+    prev: u32,
+    next: u32,
+    link: LinkKind,
+    /// The input vertex that stands here unmoved.
+    source: Option<u32>,
+    /// Stored excess; `None` until first computed.
+    excess: Option<f64>,
+    alive: bool,
+    queued: bool,
+}
+
+struct Roller<'a> {
+    input: &'a Ring,
+    r: f64,
+    mode: Mode,
+    /// [`MIN_EXCESS`], or what the rounding of coordinates does to the direction of an arc of the disk.
+    min_excess: f64,
+    nodes: Vec<Node>,
+    queue: VecDeque<u32>,
+    alive: usize,
+    head: u32,
+    exhausted: bool,
+}
+
+/// What to do at a node, decided before anything is changed.
+enum Step {
+    /// Take the node away; its neighbours are joined by an arc of the disk.
+    Kill,
+    /// Replace the corner between two links by an arc from contact to contact.
+    Corner { first: u32, start: Point, last: u32, end: Point },
+    /// Split the node in two with an arc between them.
+    Cut { start: Point, end: Point },
+    /// Move the node along its outgoing link; the incoming link becomes an arc.
+    Forward(Point, Meets),
+    /// Move the node back along its incoming link; the outgoing link becomes an arc.
+    Back(Point, Meets),
+    /// Leave it.
+    Refuse,
+}
+
+/// How a new arc meets the link on which its node moved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Meets {
+    /// Tangentially: the node is done.
+    Tangent,
+    /// At an angle: the node has to be looked at again.
+    Angle,
+}
+
+impl<'a> Roller<'a> {
+    fn new(input: &'a Ring, r: f64, mode: Mode, resolution: f64) -> Roller<'a> {
+        let n = input.len();
+        let mut nodes: Vec<Node> = Vec::with_capacity(n + n / 4 + 16);
+        for (i, v) in input.vertices.iter().enumerate() {
+            let link = match v.link {
+                Link::Line => LinkKind::Line,
+                Link::Arc(_) => LinkKind::Input(i as u32),
+            };
+            nodes.push(Node {
+                point: v.point,
+                prev: if i == 0 { n as u32 - 1 } else { i as u32 - 1 },
+                next: if i + 1 == n { 0 } else { i as u32 + 1 },
+                link,
+                source: Some(i as u32),
+                excess: None,
+                alive: true,
+                queued: false,
+            });
+        }
+        let min_excess = MIN_EXCESS + ROUNDING_STEPS * resolution / r;
+        Roller { input, r, mode, min_excess, nodes, queue: VecDeque::new(), alive: n, head: 0, exhausted: false }
+    }
+
+    fn node(&self, i: u32) -> &Node {
+        &self.nodes[i as usize]
+    }
+
+    fn node_mut(&mut self, i: u32) -> &mut Node {
+        &mut self.nodes[i as usize]
+    }
+
+    fn enqueue(&mut self, i: u32) {
+        let node = self.node_mut(i);
+        if !node.queued {
+            node.queued = true;
+            self.queue.push_back(i);
+        }
+    }
+
+    fn run(&mut self) {
+        self.activate();
+        let mut budget = OPERATIONS_PER_VERTEX * self.input.len() + 10_000;
+        while let Some(b) = self.queue.pop_front() {
+            self.node_mut(b).queued = false;
+            if !self.node(b).alive {
+                continue;
+            }
+            if self.is_filled() {
+                self.alive = 0;
+                return;
+            }
+            if budget == 0 {
+                self.exhausted = true;
+                return;
+            }
+            budget -= 1;
+            self.visit(b);
+        }
+        if self.is_filled() {
+            self.alive = 0;
+        }
+    }
+
+    /// Whether nothing of the ring is left but arcs of the disk and at most one straight link: no disk fits.
+    fn is_filled(&self) -> bool {
+        if self.alive > 2 {
+            return false;
+        }
+        let head = self.node(self.head);
+        let is_input = |k: LinkKind| matches!(k, LinkKind::Input(_));
+        self.alive < 2 || !(is_input(head.link) || is_input(self.node(head.next).link))
+    }
+
+    /// Queues every vertex that the disk cannot follow.
+    fn activate(&mut self) {
+        let n = self.input.len();
+        for i in 0..n as u32 {
+            if let LinkKind::Input(_) = self.node(i).link
+                && !self.track(i).fits(self.r * (1.0 - SHRINK))
+            {
+                // A concave arc below the radius: the disk spans it from end to end.
+                self.node_mut(i).link = LinkKind::Rolling;
+                let next = self.node(i).next;
+                self.enqueue(i);
+                self.enqueue(next);
+            }
+        }
+        // Lines are the common case: the sign of the turn costs no angle.
+        let mut incoming = if n > 0 { self.input.segment(n - 1) } else { return };
+        for i in 0..n {
+            let outgoing = self.input.segment(i);
+            let (u, v) = match (incoming.link, outgoing.link) {
+                (Link::Line, Link::Line) => (incoming.end - incoming.start, outgoing.end - outgoing.start),
+                _ => (incoming.end_tangent(), outgoing.start_tangent()),
+            };
+            // Sine and cosine times the lengths: most vertices need no angle.
+            let (cross, dot) = (u.perp(&v), u.dot(&v));
+            if cross < 0.0 && (dot < 0.0 || -cross > self.min_excess * dot) {
+                let smooth = self.input.vertices[i].joint == Joint::Smooth
+                    && follows_samples((-cross).atan2(dot), incoming.length(), outgoing.length(), self.r);
+                if !smooth {
+                    self.enqueue(i as u32);
+                }
+            }
+            incoming = outgoing;
+        }
+    }
+
+    fn segment(&self, a: u32) -> Segment {
+        let node = self.node(a);
+        let link = match node.link {
+            LinkKind::Line => Link::Line,
+            LinkKind::Input(i) => self.input.vertices[i as usize].link,
+            LinkKind::Rolling => {
+                let center = center_of_chord(node.point, self.node(node.next).point, self.r);
+                Link::Arc(Arc { center, radius: self.r, turn: Turn::Right })
+            }
+        };
+        Segment { start: node.point, end: self.node(node.next).point, link }
+    }
+
+    fn track(&self, a: u32) -> Track {
+        Track::new(self.segment(a))
+    }
+
+    fn is_rolling(&self, a: u32) -> bool {
+        self.node(a).link == LinkKind::Rolling
+    }
+
+    /// Direction of the link from `a` at its start (`at_start`) or end.
+    fn tangent(&self, a: u32, at_start: bool) -> Vector {
+        let node = self.node(a);
+        let (from, to) = (node.point, self.node(node.next).point);
+        match node.link {
+            LinkKind::Line => (to - from).try_normalize(0.0).unwrap_or(Vector::x()),
+            LinkKind::Input(_) => {
+                let s = self.segment(a);
+                if at_start { s.start_tangent() } else { s.end_tangent() }
+            }
+            LinkKind::Rolling => {
+                let d = to - from;
+                let length = d.norm();
+                if length == 0.0 {
+                    return Vector::x();
+                }
+                let u = d / length;
+                // The chord turned by half the arc: left at the start, right at the end.
+                let sin = (length / (2.0 * self.r)).min(1.0);
+                let cos = ((1.0 - sin) * (1.0 + sin)).sqrt();
+                let sin = if at_start { sin } else { -sin };
+                Vector::new(cos * u.x - sin * u.y, sin * u.x + cos * u.y)
+            }
+        }
+    }
+
+    /// The excess the input had at vertex `i`, before anything moved.
+    fn original_excess(&self, i: u32) -> f64 {
+        let n = self.input.len();
+        let i = i as usize;
+        let incoming = self.input.segment(if i == 0 { n - 1 } else { i - 1 });
+        -turn_angle(incoming.end_tangent(), self.input.segment(i).start_tangent())
+    }
+
+    fn visit(&mut self, b: u32) {
+        let a = self.node(b).prev;
+        let c = self.node(b).next;
+        let min_link = COINCIDENT * self.r;
+        // A link without length has no direction: its end is its start.
+        if (self.node(b).point - self.node(a).point).norm() <= min_link {
+            return self.absorb(a, b, c);
+        }
+        let mut excess = -turn_angle(self.tangent(a, false), self.tangent(b, true));
+        let before = match (self.node(b).excess, self.node(b).source) {
+            (Some(stored), _) => stored,
+            (None, Some(i)) => self.original_excess(i),
+            (None, None) => 0.0,
+        };
+        match self.mode {
+            Mode::Geodesic if excess < before - WRAPPED => excess += TAU,
+            Mode::Safe if excess < before - WRAPPED || excess > SAFE_EXCESS => {
+                self.node_mut(b).excess = Some(excess);
+                return;
+            }
+            _ => {}
+        }
+        self.node_mut(b).excess = Some(excess);
+        if excess <= self.min_excess {
+            return;
+        }
+        let step = self.decide(a, b, c, excess);
+        self.apply(step, a, b, c);
+    }
+
+    /// Joins `b` to `a` where they are one point.
+    fn absorb(&mut self, a: u32, b: u32, c: u32) {
+        if a == b || a == c {
+            return;
+        }
+        let (link, excess) = (self.node(b).link, self.node(b).excess);
+        self.node_mut(b).alive = false;
+        self.alive -= 1;
+        if self.head == b {
+            self.head = a;
+        }
+        let node = self.node_mut(a);
+        node.next = c;
+        node.link = link;
+        // Two turns at one place: neither stored value speaks for their sum.
+        node.excess = match (node.excess, excess) {
+            (Some(x), Some(y)) => Some(x.max(y)),
+            _ => Some(0.0),
+        };
+        self.node_mut(c).prev = a;
+        self.enqueue(a);
+        self.enqueue(c);
+    }
+
+    fn decide(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
+        match (self.is_rolling(a), self.is_rolling(b)) {
+            (true, true) => self.kill(a, b, c),
+            (false, false) => {
+                let (left, right) = (self.track(a), self.track(b));
+                if left.is_straight() && right.is_straight() {
+                    self.straight_corner([a, b, c], excess, &left, &right)
+                } else {
+                    self.curved_corner(a, b, c, &left, &right)
+                }
+            }
+            (false, true) => {
+                let d = self.node(c).next;
+                let left = self.track(a);
+                if !self.is_rolling(c)
+                    && d != a
+                    && d != b
+                    && let Some((start, end)) = self.corner(&left, &self.track(c))
+                {
+                    return Step::Corner { first: b, start, last: c, end };
+                }
+                self.slide_back(a, b, c, &left)
+            }
+            (true, false) => {
+                let z = self.node(a).prev;
+                let right = self.track(b);
+                if !self.is_rolling(z)
+                    && z != c
+                    && z != b
+                    && let Some((start, end)) = self.corner(&self.track(z), &right)
+                {
+                    return Step::Corner { first: a, start, last: b, end };
+                }
+                self.slide_forward(a, b, c, &right)
+            }
+        }
+    }
+
+    /// Two straight links: the disk touches both at the same distance from the corner.
+    fn straight_corner(&self, [a, b, c]: [u32; 3], excess: f64, left: &Track, right: &Track) -> Step {
+        let min_link = MIN_LINK * self.r;
+        let corner = self.node(b).point;
+        let (u, v) = (left.tangent_at(corner), right.tangent_at(corner));
+        let reach = if excess > PI - MIN_LINK { f64::INFINITY } else { self.r * half_turn_tangent(u, v) };
+        let shorter = left.length.min(right.length);
+        if reach < shorter - min_link {
+            Step::Cut { start: corner - u * reach, end: corner + v * reach }
+        } else if (left.length - right.length).abs() <= min_link {
+            self.kill(a, b, c)
+        } else if left.length < right.length {
+            Step::Forward(corner + v * left.length, Meets::Angle)
+        } else {
+            Step::Back(corner - u * right.length, Meets::Angle)
+        }
+    }
+
+    /// A corner with an arc of the input on at least one side.
+    fn curved_corner(&self, a: u32, b: u32, c: u32, left: &Track, right: &Track) -> Step {
+        if let Some((start, end)) = self.corner(left, right) {
+            return Step::Cut { start, end };
+        }
+        let min_link = MIN_LINK * self.r;
+        // The disk reaches beyond an end: it rests on that end and touches the other link.
+        let forward = self.touch_ahead(self.node(a).point, right).filter(|t| t.at < right.length - min_link);
+        let back = self.touch_behind(left, self.node(c).point).filter(|t| t.at > min_link);
+        match (forward, back) {
+            (Some(t), Some(s)) if t.at > left.length - s.at => Step::Back(s.point, Meets::Tangent),
+            (Some(t), _) => Step::Forward(t.point, Meets::Tangent),
+            (None, Some(s)) => Step::Back(s.point, Meets::Tangent),
+            (None, None) => self.kill(a, b, c),
+        }
+    }
+
+    /// The contacts of a disk that touches both tracks, the first one before its end and the second after its start.
+    fn corner(&self, left: &Track, right: &Track) -> Option<(Point, Point)> {
+        let (r, min_link) = (self.r, MIN_LINK * self.r);
+        let (first, second): (Contact, Contact) = if left.is_straight() && right.is_straight() {
+            let (u, w) = (left.tangent_at(left.start), right.tangent_at(right.start));
+            let (sine, cosine) = (u.perp(&w), u.dot(&w));
+            // A right turn, neither straight on nor straight back.
+            let angle_known = if cosine > 0.0 { MIN_EXCESS } else { MIN_LINK };
+            if sine > -angle_known {
+                return None;
+            }
+            let along = (right.start - left.start).perp(&w) / sine;
+            let apex = left.start + u * along;
+            let reach = r * half_turn_tangent(u, w);
+            let (t, s) = (along - reach, (apex - right.start).dot(&w) + reach);
+            (Contact { at: t, point: left.start + u * t }, Contact { at: s, point: right.start + w * s.max(0.0) })
+        } else {
+            let roots = left.carrier(r).roots(&right.carrier(r), MIN_EXCESS * r);
+            roots.iter().map(|o| (left.contact(o), right.contact(o))).find(|(t, s)| {
+                t.at > min_link && t.at <= left.length + min_link && s.at >= -min_link && s.at < right.length - min_link
+            })?
+        };
+        let fits = first.at > min_link
+            && first.at <= left.length + min_link
+            && second.at >= -min_link
+            && second.at < right.length - min_link;
+        fits.then_some((first.point, second.point))
+    }
+
+    /// Where a disk that rests on `p` and lies ahead of it touches `track`.
+    fn touch_ahead(&self, p: Point, track: &Track) -> Option<Contact> {
+        let centers = self.centers_through(p, track);
+        centers.filter(|o| (o - p).dot(&track.tangent_at(track.contact(*o).point)) >= 0.0).next_touch(track)
+    }
+
+    /// Where a disk that rests on `p`, a point further on, touches `track`.
+    fn touch_behind(&self, track: &Track, p: Point) -> Option<Contact> {
+        let centers = self.centers_through(p, track);
+        centers.filter(|o| (o - p).dot(&track.tangent_at(track.contact(*o).point)) <= 0.0).next_touch(track)
+    }
+
+    fn centers_through(&self, p: Point, track: &Track) -> Centers {
+        use super::carrier::Carrier;
+        // A point of the track itself is touched there; rounding must not lose it.
+        let slack = MIN_EXCESS * self.r;
+        Centers(match track.carrier(self.r) {
+            Carrier::Line(q, u) => line_circle(q, u, p, self.r, slack).iter().collect(),
+            Carrier::Circle(c, radius) => circle_circle(p, self.r, c, radius, slack).iter().collect(),
+            Carrier::Fixed(c) => vec![c],
+        })
+    }
+
+    /// A link followed by an arc of the disk that ends at `c`: roll back until the disk rests on `c`.
+    fn slide_back(&self, a: u32, b: u32, c: u32, left: &Track) -> Step {
+        let min_link = MIN_LINK * self.r;
+        let target = self.node(c).point;
+        let contact = if left.is_straight() {
+            let u = left.tangent_at(left.start);
+            let w = target - left.start;
+            let (along, across) = (w.dot(&u), w.dot(&right_normal(u)));
+            (across > 0.0).then(|| {
+                let at = along - (across * (2.0 * self.r - across)).max(0.0).sqrt();
+                Contact { at, point: left.start + u * at }
+            })
+        } else {
+            self.touch_behind(left, target)
+        };
+        match contact {
+            Some(t) if t.at > min_link => {
+                if t.at < left.length {
+                    Step::Back(t.point, Meets::Tangent)
+                } else {
+                    Step::Refuse
+                }
+            }
+            _ => self.kill(a, b, c),
+        }
+    }
+
+    /// The mirror image of [`Roller::slide_back`].
+    fn slide_forward(&self, a: u32, b: u32, c: u32, right: &Track) -> Step {
+        let min_link = MIN_LINK * self.r;
+        let target = self.node(a).point;
+        let contact = if right.is_straight() {
+            let v = right.tangent_at(right.start);
+            let w = target - right.start;
+            let (along, across) = (w.dot(&v), w.dot(&right_normal(v)));
+            (across > 0.0).then(|| {
+                let at = along + (across * (2.0 * self.r - across)).max(0.0).sqrt();
+                Contact { at, point: right.start + v * at }
+            })
+        } else {
+            self.touch_ahead(target, right)
+        };
+        match contact {
+            Some(t) if t.at < right.length - min_link => {
+                if t.at > 0.0 {
+                    Step::Forward(t.point, Meets::Tangent)
+                } else {
+                    Step::Refuse
+                }
+            }
+            _ => self.kill(a, b, c),
+        }
+    }
+
+    fn kill(&self, a: u32, b: u32, c: u32) -> Step {
+        if self.mode == Mode::Geodesic {
+            return Step::Kill;
+        }
+        let (from, to) = (self.node(a).point, self.node(c).point);
+        let chord = (to - from).norm();
+        let spans = chord > MIN_EXCESS * self.r && chord <= 2.0 * self.r * (1.0 + HIDDEN);
+        let hidden = || {
+            let center = center_of_chord(from, to, self.r);
+            (self.node(b).point - center).norm() >= self.r * (1.0 - HIDDEN)
+        };
+        if spans && hidden() { Step::Kill } else { Step::Refuse }
+    }
+
+    fn apply(&mut self, step: Step, a: u32, b: u32, c: u32) {
+        match step {
+            Step::Refuse => {
+                if self.mode == Mode::Geodesic {
+                    // The neighbour is the one that has to give way first.
+                    let neighbour = if self.is_rolling(a) { a } else { c };
+                    self.enqueue(neighbour);
+                }
+            }
+            Step::Kill => {
+                self.node_mut(b).alive = false;
+                self.alive -= 1;
+                if self.head == b {
+                    self.head = a;
+                }
+                self.node_mut(a).next = c;
+                self.node_mut(a).link = LinkKind::Rolling;
+                self.node_mut(c).prev = a;
+                self.enqueue(c);
+                self.enqueue(a);
+            }
+            Step::Corner { first, start, last, end } => {
+                self.move_to(first, start);
+                self.move_to(last, end);
+            }
+            Step::Cut { start, end } => {
+                let link = self.node(b).link;
+                let made = self.nodes.len() as u32;
+                self.move_to(b, start);
+                let node = self.node_mut(b);
+                node.link = LinkKind::Rolling;
+                node.next = made;
+                self.nodes.push(Node {
+                    point: end,
+                    prev: b,
+                    next: c,
+                    link,
+                    source: None,
+                    excess: Some(0.0),
+                    alive: true,
+                    queued: false,
+                });
+                self.node_mut(c).prev = made;
+                self.alive += 1;
+            }
+            Step::Forward(p, meets) => {
+                self.move_to(b, p);
+                self.node_mut(a).link = LinkKind::Rolling;
+                if meets == Meets::Angle {
+                    self.enqueue(b);
+                }
+                self.enqueue(a);
+            }
+            Step::Back(p, meets) => {
+                self.move_to(b, p);
+                self.node_mut(b).link = LinkKind::Rolling;
+                if meets == Meets::Angle {
+                    self.enqueue(b);
+                }
+                self.enqueue(c);
+            }
+        }
+    }
+
+    fn move_to(&mut self, i: u32, p: Point) {
+        let node = self.node_mut(i);
+        node.point = p;
+        node.source = None;
+        node.excess = Some(0.0);
+    }
+
+    fn finish(self) -> Scan {
+        let mut vertices = Vec::with_capacity(self.alive);
+        if self.alive > 0 {
+            let mut i = self.head;
+            loop {
+                let node = self.node(i);
+                let original = node.source.map(|s| &self.input.vertices[s as usize]);
+                vertices.push(Vertex {
+                    point: node.point,
+                    link: self.segment(i).link,
+                    joint: original.map_or(Joint::Corner, |v| v.joint),
+                    id: original.and_then(|v| v.id),
+                });
+                i = node.next;
+                if i == self.head {
+                    break;
+                }
+            }
+        }
+        Scan { ring: Ring { vertices }, finished: !self.exhausted }
+    }
+}
+
+/// tan(e/2) for the right turn e from one unit vector to another: sin e / (1 + cos e).
+fn half_turn_tangent(u: Vector, v: Vector) -> f64 {
+    -u.perp(&v) / (1.0 + u.dot(&v))
+}
+
+/// Whether a disk of radius `r` follows a concave curve whose chords of lengths `l1` and `l2` turn by `excess` at a
+/// sample: it touches the two chords in the halves that meet there.
+pub(super) fn follows_samples(excess: f64, l1: f64, l2: f64, r: f64) -> bool {
+    // Samples are evenly spaced in the parameter, not in length: a little room for that.
+    const UNEVEN: f64 = 1e-3;
+    excess < 1.0 && r * (0.5 * excess).tan() <= 0.5 * l1.min(l2) * (1.0 + UNEVEN)
+}
+
+/// Centres of disks that rest on a point and touch a track.
+struct Centers(Vec<Point>);
+
+impl Centers {
+    fn filter(mut self, keep: impl Fn(&Point) -> bool) -> Centers {
+        self.0.retain(keep);
+        self
+    }
+
+    fn next_touch(self, track: &Track) -> Option<Contact> {
+        self.0.first().map(|o| track.contact(*o))
+    }
+}

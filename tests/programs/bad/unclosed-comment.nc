@@ -1,0 +1,13 @@
+G21
+G90
+G17
+G94
+G0 Z5
+M3 S10000
+G4 P2
+G0 X0 Y0
+G1 Z-1 F100
+G1 X5 F500 (to the right
+G0 Z5
+M5
+M2

@@ -1,0 +1,15 @@
+; a ramp in inches
+G20
+G90
+G17
+G94
+G0 Z0.2
+M3 S18000
+G4 P3
+G0 X0 Y0
+G1 Z0 F10
+G1 X1 Z-0.05 F15
+G1 X0
+G0 Z0.2
+M5
+M30
