@@ -91,7 +91,7 @@ fn gouge(text: &str, kept: &Region, radius: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]
 
     /// Whatever the outline and the job, the program breaks no rule of either controller and spares the part.
     #[test]

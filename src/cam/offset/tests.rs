@@ -112,6 +112,24 @@ fn arcs_that_touch_stay_joined_without_tiny_elements() {
 }
 
 #[test]
+fn the_path_does_not_pass_a_neck() {
+    // Two diamonds tip to tip, 2 apart: a disk of radius 2 does not pass, and comes to rest above and below.
+    let diamond = |x: f64| Ring::polygon([p(x + 20.0, 0.0), p(x, 20.0), p(x - 20.0, 0.0), p(x, -20.0)]);
+    let part = Region::new(vec![diamond(-21.0), diamond(21.0)]);
+    for (radius, smallest) in [(2.0, 2.0), (2.1, 2.0), (2.3, 1.0), (2.1, 0.5)] {
+        let closed =
+            crate::rolling::close(&part, crate::units::Radius::new(radius).unwrap(), crate::rolling::Topology::Merge);
+        let path = offset(&closed.region, smallest).unwrap();
+        let (near, far) = distances(&path, &closed.region);
+        assert!((near - smallest).abs() < 1e-9 && (far - smallest).abs() < 1e-9, "{radius} {smallest}: {near} {far}");
+        // One path around both, or one around each where the tool passes.
+        let passes = smallest < 1.0;
+        assert_eq!(path.rings.len(), if passes { 2 } else { 1 }, "{radius} {smallest}");
+        assert!(path.rings.iter().all(|r| r.area() > 0.0));
+    }
+}
+
+#[test]
 fn what_is_not_closed_is_refused_with_the_place() {
     let sharp = rounded_l(0.0);
     let Err(OffsetError::ConcaveCorner { at, turn }) = offset(&sharp, 1.0) else { panic!("a corner passed") };
