@@ -204,13 +204,14 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let checked = check(args, &job, &plan)?;
 
     let target = target(args);
-    output::write(&target, checked.text.as_bytes())?;
-    let mut written = vec![target.clone()];
+    let mut contents = vec![(target.clone(), checked.text.clone().into_bytes())];
     if !args.no_preview && target != Path::new("-") {
-        let picture = target.with_extension("png");
-        output::write(&picture, &draw(&job, &plan, &checked)?)?;
-        written.push(picture);
+        contents.push((target.with_extension("png"), draw(&job, &plan, &checked)?));
     }
+    output::write_together(
+        &contents.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect::<Vec<_>>(),
+    )?;
+    let written: Vec<PathBuf> = contents.into_iter().map(|(path, _)| path).collect();
     let report = MillReport {
         input: &args.input,
         job: &job,

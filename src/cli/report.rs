@@ -215,7 +215,9 @@ fn describe(feature: &LostFeature) -> String {
         LostFeature::PartsMerged { components, place, width } => {
             format!("{components} parts merge {}, across a gap of {width:.3} mm", at(place))
         }
-        LostFeature::GapFilled { place, width, .. } => format!("gap {width:.3} mm wide {}: filled", at(place)),
+        LostFeature::GapFilled { place, width, depth, .. } => {
+            format!("gap up to {width:.3} mm wide {}: filled, {depth:.3} mm deep", at(place))
+        }
         LostFeature::ComponentLost { center, diameter, .. } => {
             format!("opening of diameter {diameter:.3} mm {}: the tool cannot enter it", at(center))
         }
