@@ -119,7 +119,13 @@ impl Ring {
 
     /// The smallest axis-parallel box that holds the ring.
     pub fn bounds(&self) -> Bounds {
-        self.segments().fold(Bounds::EMPTY, |b, s| b.union(s.bounds()))
+        let mut bounds = Bounds::of_points(self.vertices.iter().map(|v| v.point));
+        for (i, v) in self.vertices.iter().enumerate() {
+            if v.link != Link::Line {
+                bounds = bounds.union(self.segment(i).bounds());
+            }
+        }
+        bounds
     }
 
     /// The same curve run the other way: solid and empty change places. Vertices keep their identities.

@@ -115,10 +115,9 @@ impl Solid {
         Solid { index: BoundaryIndex::new(raw), far_winding: i32::from(raw.area() < 0.0) }
     }
 
-    /// Whether the disk of radius `limit` about `p` is free of solid.
-    fn leaves_free(&self, p: Point, limit: f64) -> bool {
-        // Where boundaries touch, the locus of one can run far from both through the solid of the other.
-        !self.index.is_nearer(p, limit) && self.index.winding_number(p) + self.far_winding <= 0
+    /// Whether `p` lies outside of the solid.
+    fn is_outside(&self, p: Point) -> bool {
+        self.index.winding_number(p) + self.far_winding <= 0
     }
 }
 
@@ -187,8 +186,27 @@ impl<'a> Attempt<'a> {
         from.piece == to.piece && to.at > from.at
     }
 
+    /// Whether no boundary is nearer to `p` than the disk allows.
+    fn has_room(&self, p: Point) -> bool {
+        !self.solid.index.is_nearer(p, self.limit)
+    }
+
     fn verdict(&self, p: Point) -> Verdict {
-        if self.solid.leaves_free(p, self.limit) { Verdict::Free } else { Verdict::Covered }
+        // Where boundaries touch, the locus of one can run far from both through the solid of the other.
+        if self.has_room(p) && self.solid.is_outside(p) { Verdict::Free } else { Verdict::Covered }
+    }
+
+    /// Whether what the other locus touches at `e` comes nearer to `p` than the disk allows: a quick answer to most
+    /// questions whether `p` is covered.
+    fn is_covered_by_twin(&self, p: Point, e: u32) -> bool {
+        let twin = self.piece(self.events[e as usize].twin);
+        let ring = &self.region.rings[twin.ring as usize];
+        match twin.touch {
+            Touch::Vertex => (ring.vertices[twin.node as usize].point - p).norm_squared() < self.limit * self.limit,
+            Touch::Link => ring.segment(twin.node as usize).is_nearer(p, self.limit),
+            // An arc that the preparation made is not yet known to be right.
+            Touch::Stuck => false,
+        }
     }
 
     /// A point well inside the stretch from `e` to the next event, and the length it stands for.
@@ -224,16 +242,24 @@ impl<'a> Attempt<'a> {
 
     fn walk_is_free(&self, walk: &[u32]) -> bool {
         let step = walk.len().div_ceil(SAMPLES);
-        walk.iter().step_by(step).all(|&e| self.verdict(self.sample(e).0) == Verdict::Free)
+        self.solid.is_outside(self.sample(walk[0]).0)
+            && walk.iter().step_by(step).all(|&e| self.has_room(self.sample(e).0))
     }
 
     /// Every stretch must be free if it is kept and covered if it is not, where it is long enough to tell.
     fn hold_against_distances(&mut self, in_kept_walk: &[bool]) {
         for e in 0..self.events.len() as u32 {
             let (p, length) = self.sample(e);
-            if length > TELLING * self.r && (self.verdict(p) == Verdict::Free) != in_kept_walk[e as usize] {
-                self.contradictions += 1;
+            if length <= TELLING * self.r {
+                continue;
             }
+            let contradicts = if in_kept_walk[e as usize] {
+                !self.has_room(p)
+            } else {
+                let covered = self.is_covered_by_twin(p, e) || self.is_covered_by_twin(p, self.next(e));
+                !covered && self.verdict(p) == Verdict::Free
+            };
+            self.contradictions += usize::from(contradicts);
         }
     }
 
