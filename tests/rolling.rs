@@ -242,6 +242,19 @@ fn a_part_inside_a_hole_that_the_disk_cannot_enter_is_reported_where_nothing_cro
 }
 
 #[test]
+fn a_hole_does_not_outlive_its_part() {
+    // A washer too thin for the disk: opening takes the ring away, and its hole must go with it.
+    let mut input = polygons(&[&rectangle(0.0, 0.0, 20.0, 20.0), &rectangle(40.0, 0.0, 90.0, 50.0)]);
+    input.rings.push(Ring::polygon([(7., 7.), (7., 13.), (13., 13.), (13., 7.)].map(|(x, y)| Point::new(x, y))));
+    for topology in [MERGE, KEEP] {
+        let opened = open(&input, radius(11.0), topology);
+        assert_eq!(opened.region.rings.len(), 1, "{topology:?}");
+        assert!(opened.region.area() > 0.0);
+        assert!(open(&input, radius(500.0), topology).region.is_empty(), "{topology:?}");
+    }
+}
+
+#[test]
 fn rings_that_touch_at_a_vertex_have_loci_that_coincide_and_still_close() {
     // Two thin wedges with a common apex and a common top line.
     let input = polygons(&[&[(0.0, 0.0), (-4.0, 0.0), (-3.0, -3.0)], &[(0.0, 0.0), (3.0, -3.0), (4.0, 0.0)]]);

@@ -17,7 +17,7 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{Bounds, Link, Point, Region, Vector};
+use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Vector};
 use crate::units::Radius;
 
 /// What closing means where components come near each other.
@@ -81,7 +81,28 @@ fn close_along(region: &Region, r: f64, resolution: f64) -> Outcome {
     let (scanned, unfinished) = scan_rings(region, r, scan::Mode::Geodesic, resolution);
     let mut differences = merge::differences(&scanned, region, r, resolution);
     differences.extend(unfinished);
-    Outcome { region: scanned, differences, contradictions: 0 }
+    let (region, absorbed) = without_absorbed(scanned, region.area() < 0.0);
+    differences.extend(absorbed);
+    Outcome { region, differences, contradictions: 0 }
+}
+
+/// Drops the rings that other rings have swallowed: an island in a hole that filled, a part that a hole closed in on. Tells
+/// a point of each.
+fn without_absorbed(scanned: Region, far_is_solid: bool) -> (Region, Vec<Point>) {
+    if scanned.rings.len() < 2 && !far_is_solid {
+        return (scanned, vec![]);
+    }
+    let index = BoundaryIndex::new(&scanned);
+    let mut absorbed = vec![];
+    let mut kept = vec![];
+    for ring in &scanned.rings {
+        let Some(vertex) = ring.vertices.first() else { continue };
+        // What the other rings make of the place: an outer ring belongs in empty space, a hole in solid.
+        let around = index.winding_number(vertex.point) - ring.winding_number(vertex.point) + i32::from(far_is_solid);
+        let belongs = if ring.area() > 0.0 { around <= 0 } else { around > 0 };
+        if belongs { kept.push(ring.clone()) } else { absorbed.push(vertex.point) }
+    }
+    (Region::new(kept), absorbed)
 }
 
 /// The scanned rings, and a point of every ring whose scan did not come to its end.

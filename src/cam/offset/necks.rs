@@ -5,13 +5,14 @@
 //! and what lies between the crossings is too near to the corner opposite. It is cut out, and the path on either side is
 //! joined to itself by an arc about the centre of the resting disk, so that it turns no tighter than elsewhere.
 
-use std::collections::BTreeMap;
-
 use super::OffsetError;
-use crate::plane::{Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Turn, Vertex, right_normal};
+use crate::plane::{Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Turn, Vector, Vertex, right_normal};
 
 /// Angle in radians within which a crossing counts as the end of an arc. Rounding of the resting disks is far below.
 const END_ANGLE: f64 = 1e-7;
+
+/// Arcs that sweep less than this (radians) are about samples of a curve, on which no disk rests from two sides.
+const LEAST_CORNER: f64 = 1e-3;
 
 /// How much too near, relative to the distance, a stretch has to be to be cut out.
 const BLOCKED: f64 = 1e-7;
@@ -31,10 +32,9 @@ struct Element {
 
 /// The rings of an offset of `closed` by `distance`, with the necks cut out.
 pub(super) fn cut_necks(rings: Vec<Ring>, closed: &Region, distance: f64) -> Result<Vec<Ring>, OffsetError> {
-    let corners = corners(closed);
-    // No concave feature is tighter than the disk that rested, whose arcs meet in these corners.
-    let resting = corners.values().copied().fold(f64::INFINITY, f64::min);
-    let crossings = crossings(&rings, &corners, distance);
+    // No concave feature is tighter than the disk that rested.
+    let resting = closed.segments().filter_map(|s| concave_radius(s.link)).fold(f64::INFINITY, f64::min);
+    let crossings = crossings(&rings, distance);
     if crossings.is_empty() {
         return Ok(rings);
     }
@@ -94,59 +94,66 @@ struct Crossing {
     angle: f64,
 }
 
-/// Corners between two concave arcs, by their bits, with the smaller radius: one of the two corners of a neck always is such.
-fn corners(closed: &Region) -> BTreeMap<(u64, u64), f64> {
-    let concave = |l: Link| match l {
-        Link::Arc(a) if a.turn == Turn::Right => Some(a.radius),
+fn concave_radius(link: Link) -> Option<f64> {
+    match link {
+        Link::Arc(Arc { radius, turn: Turn::Right, .. }) => Some(radius),
         _ => None,
-    };
-    let mut corners = BTreeMap::new();
-    for ring in &closed.rings {
-        for (i, vertex) in ring.vertices.iter().enumerate() {
-            let before = ring.vertices[(i + ring.len() - 1) % ring.len()].link;
-            if let (Some(a), Some(b)) = (concave(before), concave(vertex.link)) {
-                corners.insert(bits(vertex.point), a.min(b));
-            }
-        }
     }
-    corners
 }
 
-fn bits(p: Point) -> (u64, u64) {
-    (p.x.to_bits(), p.y.to_bits())
+/// An arc of the offset about a corner of the region.
+struct About {
+    ring: usize,
+    element: usize,
+    segment: Segment,
+    arc: Arc,
+    sweep: f64,
+    /// Unit direction from the corner to the middle of the arc.
+    middle: Vector,
 }
 
-/// The crossings of arcs about corners of necks with other arcs about corners, in the order of the elements.
-fn crossings(rings: &[Ring], corners: &BTreeMap<(u64, u64), f64>, distance: f64) -> Vec<Crossing> {
-    if corners.is_empty() {
-        return Vec::new();
-    }
-    let mut about: Vec<(usize, usize, Segment, Arc)> = Vec::new();
+/// The crossings of arcs about corners with each other, in the order of the elements.
+///
+/// The corners of a neck are where new arcs of the closing meet, or corners that the drawing had: the disk rests on the
+/// same two corners from either side.
+fn crossings(rings: &[Ring], distance: f64) -> Vec<Crossing> {
+    let mut about: Vec<About> = Vec::new();
     for (r, ring) in rings.iter().enumerate() {
         for i in 0..ring.len() {
-            if let Link::Arc(arc) = ring.vertices[i].link
+            let segment = ring.segment(i);
+            if let Link::Arc(arc) = segment.link
                 && arc.turn == Turn::Left
                 && arc.radius == distance
+                && segment.sweep() > LEAST_CORNER
             {
-                about.push((r, i, ring.segment(i), arc));
+                let middle = (segment.point_at(0.5) - arc.center) / distance;
+                about.push(About { ring: r, element: i, sweep: segment.sweep(), segment, arc, middle });
             }
         }
     }
+    about.sort_by(|a, b| a.arc.center.x.total_cmp(&b.arc.center.x));
+    // Seen from its corner, a place on an arc lies within half its sweep of its middle.
+    let may_hold =
+        |a: &About, p: Point| (p - a.arc.center).dot(&a.middle) >= distance * ((0.5 * a.sweep).cos() - END_ANGLE);
     let mut found = Vec::new();
-    for (a, at) in about.iter().enumerate().filter(|(_, at)| corners.contains_key(&bits(at.3.center))) {
-        for (b, other) in about.iter().enumerate() {
-            let apart = other.3.center - at.3.center;
+    for (k, a) in about.iter().enumerate() {
+        let near = about[k + 1..].iter().take_while(|b| b.arc.center.x - a.arc.center.x < 2.0 * distance);
+        for b in near {
+            let apart = b.arc.center - a.arc.center;
             let length = apart.norm();
-            if a == b || length >= 2.0 * distance || length == 0.0 {
+            if length >= 2.0 * distance || length == 0.0 {
                 continue;
             }
             let height = (distance * distance - 0.25 * length * length).sqrt();
             let across = right_normal(apart) * (height / length);
-            let middle = nalgebra::center(&at.3.center, &other.3.center);
+            let middle = nalgebra::center(&a.arc.center, &b.arc.center);
             for place in [middle + across, middle - across] {
-                if let (Some(p), Some(q)) = (way(&at.2, &at.3, place), way(&other.2, &other.3, place)) {
-                    found.push(Crossing { ring: at.0, element: at.1, angle: p });
-                    found.push(Crossing { ring: other.0, element: other.1, angle: q });
+                if may_hold(a, place)
+                    && may_hold(b, place)
+                    && let (Some(p), Some(q)) = (way(&a.segment, &a.arc, place), way(&b.segment, &b.arc, place))
+                {
+                    found.push(Crossing { ring: a.ring, element: a.element, angle: p });
+                    found.push(Crossing { ring: b.ring, element: b.element, angle: q });
                 }
             }
         }
