@@ -71,7 +71,7 @@ pub enum TypedPathRadius {
 /// Why a text is no job file: the place and the reason, as the TOML reader gives them.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("the job file cannot be read: {0}")]
-pub struct ParseJobError(#[from] toml::de::Error);
+pub struct ParseJobError(toml::de::Error);
 
 /// A word that is none of the choices.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -85,7 +85,7 @@ impl FromStr for JobFile {
     type Err = ParseJobError;
 
     fn from_str(text: &str) -> Result<JobFile, ParseJobError> {
-        Ok(toml::from_str(text)?)
+        toml::from_str(text).map_err(ParseJobError)
     }
 }
 

@@ -185,7 +185,8 @@ fn place(shape: &[Polygon], solid: &Solid) -> Option<UncutPlace> {
     }
     let (depth, at) = deepest;
     let area = 0.5 * doubled_area + SKIN * contact;
-    (depth > LEAST_UNCUT_DEPTH).then_some(UncutPlace {
+    // A hair of the overlay on the tool's path can be far from the part, and is nothing.
+    (depth > LEAST_UNCUT_DEPTH && area > LEAST_UNCUT_DEPTH * LEAST_UNCUT_DEPTH).then_some(UncutPlace {
         x_mm: at.x,
         y_mm: at.y,
         area_mm2: area,

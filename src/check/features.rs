@@ -75,6 +75,18 @@ pub enum LostFeature {
     },
 }
 
+impl LostFeature {
+    /// What a tool would have to fit into, in the units of the drawing.
+    pub fn width(&self) -> f64 {
+        match *self {
+            LostFeature::HoleFilled { diameter, .. } | LostFeature::ComponentLost { diameter, .. } => diameter,
+            LostFeature::PartsMerged { width, .. }
+            | LostFeature::GapFilled { width, .. }
+            | LostFeature::NeckCut { width, .. } => width,
+        }
+    }
+}
+
 /// What `result`, a closing or opening of `part` by a disk of `radius`, has lost; in the order of the pieces from below.
 ///
 /// A closing has the larger area, so which of the two it is need not be said. A fillet in a corner is no loss. A filled

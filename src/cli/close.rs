@@ -21,7 +21,7 @@ pub(super) struct CloseArgs {
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// Radius of the disk: 2mm, 0.125in, 3px, 5u (user units) or 2% (of the diagonal); a bare number is millimetres
-    #[arg(short, long, value_name = "LENGTH")]
+    #[arg(short, long, value_name = "LENGTH", allow_hyphen_values = true)]
     radius: Length,
     /// Where the result goes, SVG; standard output unless given
     #[arg(short, long, value_name = "OUT")]
@@ -90,16 +90,18 @@ pub(super) fn run(args: &CloseArgs, operation: Operation) -> Result<ExitStatus> 
     if args.format == FormatArg::Json && to_stdout {
         bail!("--format json prints the report on standard output, where the drawing would go: add -o OUT.svg");
     }
+    let target = args.output.clone().unwrap_or_else(|| PathBuf::from("-"));
+    output::refuse_overwriting(&args.input, &[&target])?;
     let drawing = args.reading.read(&args.input)?;
     let units = args.radius.to_user_units(&drawing.scale()).context("--radius")?;
     let radius = Radius::new(units).context("--radius")?;
+    refuse_absurd(radius, args.radius, drawing.region.bounds().diagonal())?;
     let topology = args.topology.into();
     let outcome = match operation {
         Operation::Close => rolling::close(&drawing.region, radius, topology),
         Operation::Open => rolling::open(&drawing.region, radius, topology),
     };
     let text = svg::write(&drawing, &outcome.region);
-    let target = args.output.clone().unwrap_or_else(|| PathBuf::from("-"));
     output::write(&target, text.as_bytes())?;
     let report = Report::new(operation, topology, radius, drawing.mm_per_unit, &drawing.region, &outcome);
     match args.format {
@@ -110,6 +112,20 @@ pub(super) fn run(args: &CloseArgs, operation: Operation) -> Result<ExitStatus> 
         eprintln!("clopen: nothing is left: the disk fits nowhere; try a smaller radius");
     }
     Ok(if report.proved { ExitStatus::Done } else { ExitStatus::CheckFailed })
+}
+
+/// Refuses radii that are slips of the unit: beyond them coordinates do not tell the disk from a point or a line.
+fn refuse_absurd(radius: Radius, typed: Length, diagonal: f64) -> Result<()> {
+    const SMALLEST: f64 = 1e-6;
+    const LARGEST: f64 = 1e3;
+    let relative = radius.get() / diagonal;
+    if !(SMALLEST..=LARGEST).contains(&relative) {
+        bail!(
+            "--radius {typed} is {relative:.1e} of the drawing's diagonal ({diagonal:.4} user units): is the unit right? \
+             2% means two hundredths of the diagonal"
+        );
+    }
+    Ok(())
 }
 
 impl Report {

@@ -30,7 +30,14 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
 /// # Errors
 /// Names the file.
 pub(super) fn read_text(path: &Path) -> Result<String> {
-    let bytes = read_bytes(path)?;
+    into_text(read_bytes(path)?, path)
+}
+
+/// The text of a program that was read from `path`.
+///
+/// # Errors
+/// Names the file.
+pub(super) fn into_text(bytes: Vec<u8>, path: &Path) -> Result<String> {
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         anyhow::anyhow!("{}: this is not text (byte {at}); name a G-code program", path.display())
@@ -76,7 +83,15 @@ impl ReadArgs {
     /// # Errors
     /// Names the file, and where in it the trouble is.
     pub(super) fn read(&self, path: &Path) -> Result<Drawing> {
-        let drawing = read_drawing(path, &self.options()?)?;
+        self.read_from(&read_bytes(path)?, path)
+    }
+
+    /// Reads a drawing from the bytes of `path`, as [`ReadArgs::read`] does.
+    ///
+    /// # Errors
+    /// Names the file, and where in it the trouble is.
+    pub(super) fn read_from(&self, bytes: &[u8], path: &Path) -> Result<Drawing> {
+        let drawing = svg::read(bytes, &self.options()?).with_context(|| path.display().to_string())?;
         for warning in &drawing.warnings {
             eprintln!("clopen: {}: {warning}", path.display());
         }
@@ -98,13 +113,4 @@ impl ReadArgs {
             fonts: self.fonts.clone(),
         })
     }
-}
-
-/// Reads a drawing.
-///
-/// # Errors
-/// Names the file, and where in it the trouble is.
-pub(super) fn read_drawing(path: &Path, options: &ReadOptions) -> Result<Drawing> {
-    let bytes = read_bytes(path)?;
-    svg::read(&bytes, options).with_context(|| path.display().to_string())
 }

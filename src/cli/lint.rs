@@ -58,6 +58,9 @@ pub(super) fn run(args: &LintArgs) -> Result<ExitStatus> {
                 format!("{}:{}: {severity}: {}\n", args.file.display(), f.line, f.message)
             });
             output::print(&lines.collect::<String>());
+            if findings.is_empty() {
+                eprintln!("{}: no findings", args.file.display());
+            }
         }
     }
     let failed = findings.iter().any(|f| f.severity == Severity::Error);

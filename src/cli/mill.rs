@@ -192,6 +192,10 @@ struct Checked {
 /// Where the drawing or the job makes no sense, or a file cannot be written.
 pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let name = args.input.display();
+    let target = target(args);
+    let picture = (!args.no_preview && target != Path::new("-")).then(|| target.with_extension("png"));
+    let targets: Vec<&Path> = std::iter::once(target.as_path()).chain(picture.as_deref()).collect();
+    output::refuse_overwriting(&args.input, &targets)?;
     let drawing = args.reading.read(&args.input)?;
     let Some(mm_per_unit) = drawing.mm_per_unit else {
         bail!(
@@ -203,10 +207,9 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let plan = make_plan(args, &drawing.region.scaled(mm_per_unit), &job).with_context(|| name.to_string())?;
     let checked = check(args, &job, &plan)?;
 
-    let target = target(args);
     let mut contents = vec![(target.clone(), checked.text.clone().into_bytes())];
-    if !args.no_preview && target != Path::new("-") {
-        contents.push((target.with_extension("png"), draw(&job, &plan, &checked)?));
+    if let Some(picture) = picture {
+        contents.push((picture, draw(&job, &plan, &checked)?));
     }
     output::write_together(
         &contents.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect::<Vec<_>>(),

@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, bail};
 
 /// A file to be written and what it will hold.
 pub(super) type Content<'a> = (&'a Path, &'a [u8]);
@@ -28,7 +28,8 @@ pub(super) fn write_together(contents: &[Content]) -> Result<()> {
         |path: &Path| format!("{}: cannot be written; is the folder there, and may you write to it?", path.display());
     let mut staged = Vec::new();
     for &(path, bytes) in contents.iter().filter(|(path, _)| *path != Path::new("-")) {
-        let file = stage(path, bytes).with_context(|| cannot(path))?;
+        // The reason alone: the name of the temporary file would only confuse.
+        let file = stage(path, bytes).map_err(|e| std::io::Error::from(e.kind())).with_context(|| cannot(path))?;
         staged.push((path, file));
     }
     for (path, file) in staged {
@@ -37,6 +38,25 @@ pub(super) fn write_together(contents: &[Content]) -> Result<()> {
     for (_, bytes) in contents.iter().filter(|(path, _)| *path == Path::new("-")) {
         let mut out = std::io::stdout().lock();
         out.write_all(bytes).and_then(|()| out.flush()).context("standard output")?;
+    }
+    Ok(())
+}
+
+/// Refuses to write a result over what it is made from, or two results into one file.
+///
+/// # Errors
+/// Names the file.
+pub(super) fn refuse_overwriting(input: &Path, targets: &[&Path]) -> Result<()> {
+    let same = |a: &Path, b: &Path| {
+        a != Path::new("-") && (a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b))
+    };
+    for (i, target) in targets.iter().enumerate() {
+        if same(input, target) {
+            bail!("{}: this is the file that is read; name another one with -o", target.display());
+        }
+        if targets[..i].iter().any(|t| same(t, target)) {
+            bail!("{}: program and picture would be one file; name the program .nc with -o", target.display());
+        }
     }
     Ok(())
 }

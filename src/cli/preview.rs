@@ -15,7 +15,7 @@ use crate::units::{DrawingScale, Length};
 /// The arguments.
 #[derive(Clone, Debug, Args)]
 pub(super) struct PreviewArgs {
-    /// A drawing (.svg) or a program
+    /// A drawing (SVG) or a program; - is standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Where the picture goes, PNG; beside the file unless given
@@ -39,9 +39,12 @@ pub(super) struct PreviewArgs {
 /// # Errors
 /// Where the file cannot be read or the picture not written.
 pub(super) fn run(args: &PreviewArgs) -> Result<ExitStatus> {
-    let is_svg = args.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
-    let picture = if is_svg { drawing(args)? } else { program(args)? };
-    let target = args.output.clone().unwrap_or_else(|| beside(&args.file));
+    let bytes = input::read_bytes(&args.file)?;
+    // A drawing begins with markup, whatever its name; a program never does.
+    let is_svg = bytes.trim_ascii_start().first() == Some(&b'<') || bytes.starts_with(b"\xef\xbb\xbf<");
+    let target = args.output.clone().unwrap_or_else(|| beside(&args.file, is_svg));
+    output::refuse_overwriting(&args.file, &[&target])?;
+    let picture = if is_svg { drawing(args, &bytes)? } else { program(args, bytes)? };
     output::write(&target, &picture)?;
     if target != Path::new("-") {
         eprintln!("wrote {}", target.display());
@@ -49,8 +52,8 @@ pub(super) fn run(args: &PreviewArgs) -> Result<ExitStatus> {
     Ok(ExitStatus::Done)
 }
 
-fn drawing(args: &PreviewArgs) -> Result<Vec<u8>> {
-    let drawing = args.reading.read(&args.file)?;
+fn drawing(args: &PreviewArgs, bytes: &[u8]) -> Result<Vec<u8>> {
+    let drawing = args.reading.read_from(bytes, &args.file)?;
     let (region, unit) = match drawing.mm_per_unit {
         Some(mm) => (drawing.region.scaled(mm), "mm"),
         None => (drawing.region, ""),
@@ -58,8 +61,8 @@ fn drawing(args: &PreviewArgs) -> Result<Vec<u8>> {
     preview::outline(&region, None, unit, args.size).with_context(|| args.file.display().to_string())
 }
 
-fn program(args: &PreviewArgs) -> Result<Vec<u8>> {
-    let text = input::read_text(&args.file)?;
+fn program(args: &PreviewArgs, bytes: Vec<u8>) -> Result<Vec<u8>> {
+    let text = input::into_text(bytes, &args.file)?;
     let name = || args.file.display().to_string();
     let program = gcode::read(&text).with_context(name)?;
     let no_drawing = DrawingScale { mm_per_unit: None, diagonal: 0.0 };
@@ -69,7 +72,12 @@ fn program(args: &PreviewArgs) -> Result<Vec<u8>> {
     preview::program(&scene, args.size).with_context(name)
 }
 
-/// `part.nc` → `part.png`, in the current folder for standard input.
-fn beside(file: &Path) -> PathBuf {
-    if file == Path::new("-") { PathBuf::from("preview.png") } else { file.with_extension("png") }
+/// `part.nc` → `part.png`, and `part.svg` → `part.svg.png`, which is no picture of a program; in the current folder for
+/// standard input.
+fn beside(file: &Path, is_svg: bool) -> PathBuf {
+    match file {
+        _ if file == Path::new("-") => PathBuf::from("preview.png"),
+        _ if is_svg => file.with_extension("svg.png"),
+        _ => file.with_extension("png"),
+    }
 }

@@ -179,12 +179,17 @@ impl MillReport<'_> {
             return line("lost", "nothing".to_owned());
         }
         for (i, feature) in self.lost.iter().take(PLACES_SHOWN).enumerate() {
-            line(if i == 0 { "LOST" } else { "" }, describe(feature));
+            line(if i == 0 { "LOST" } else { "" }, describe(feature, self.job));
         }
         more(line, self.lost.len());
-        let tip = if self.job.path_radius_mm() > 0.0 { "--path-radius 0 or a smaller tool" } else { "a smaller tool" };
+        let fits = |f: &LostFeature| f.width() >= self.job.tool_diameter;
+        let tip = match (self.lost.iter().any(fits), self.lost.iter().all(fits)) {
+            (_, true) => "try a smaller --path-radius",
+            (true, false) => "try a smaller --path-radius, and a smaller tool",
+            (false, false) => "try a smaller tool",
+        };
         let accept = if self.accept_losses { "accepted" } else { "--accept-losses accepts this" };
-        line("", format!("try {tip}; {accept}"));
+        line("", format!("{tip}; {accept}"));
     }
 }
 
@@ -207,23 +212,31 @@ fn minutes(seconds: f64) -> String {
 }
 
 /// Sizes are known to a hundredth of themselves.
-fn describe(feature: &LostFeature) -> String {
+fn describe(feature: &LostFeature, job: &Job) -> String {
     let at = |p: &Place| format!("at ({:.3}, {:.3})", p.x, p.y);
+    let why = |width: f64| {
+        if width < job.tool_diameter {
+            format!("the tool of {} mm does not fit", job.tool_diameter)
+        } else {
+            let room = 0.5 * (width - job.tool_diameter);
+            format!("the tool fits, but not with a path radius of {:.3} mm: at most {room:.3} mm", job.path_radius_mm())
+        }
+    };
     match feature {
         LostFeature::HoleFilled { center, diameter, .. } => {
-            format!("hole of diameter {diameter:.2} mm {}: filled, the tool cannot enter it", at(center))
+            format!("hole {diameter:.2} mm wide {}: filled; {}", at(center), why(*diameter))
         }
         LostFeature::PartsMerged { components, place, width } => {
-            format!("{components} parts merge {}, across a gap of {width:.2} mm", at(place))
+            format!("{components} parts merge {}, across a gap of {width:.2} mm; {}", at(place), why(*width))
         }
         LostFeature::GapFilled { place, width, depth, .. } => {
-            format!("gap up to {width:.2} mm wide {}: filled, {depth:.2} mm deep", at(place))
+            format!("gap up to {width:.2} mm wide {}: filled, {depth:.2} mm deep; {}", at(place), why(*width))
         }
         LostFeature::ComponentLost { center, diameter, .. } => {
-            format!("opening of diameter {diameter:.2} mm {}: the tool cannot enter it", at(center))
+            format!("opening {diameter:.2} mm wide {}: not cut; {}", at(center), why(*diameter))
         }
         LostFeature::NeckCut { place, width, .. } => {
-            format!("neck {width:.2} mm wide {}: the tool cannot enter it", at(place))
+            format!("neck {width:.2} mm wide {}: not cut; {}", at(place), why(*width))
         }
     }
 }

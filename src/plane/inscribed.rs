@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use super::{BoundaryIndex, Point, Region, Vector};
 
 /// Accuracy of inscribed circles, over the size of the piece.
-const INSCRIBED_ACCURACY: f64 = 0.01;
+const INSCRIBED_ACCURACY: f64 = 1e-3;
 
 /// The most cells that the search for an inscribed circle looks at.
 const INSCRIBED_CELLS: usize = 400;
@@ -43,7 +43,7 @@ impl Ord for Cell {
     }
 }
 
-/// The largest circle in a region, within about a hundredth of its size, by dividing squares that could still hold a larger
+/// The largest circle in a region, within about a thousandth of its size, by dividing squares that could still hold a larger
 /// one. Radius zero where there is no area.
 pub fn inscribed_circle(outline: &Region) -> InscribedCircle {
     let index = BoundaryIndex::new(outline);

@@ -77,12 +77,16 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
     Outcome { region: merged.region, differences: merged.bridges, contradictions: merged.contradictions }
 }
 
-fn close_along(region: &Region, r: f64, resolution: f64) -> Outcome {
-    let (scanned, unfinished) = scan_rings(region, r, scan::Mode::Geodesic, resolution);
-    let mut differences = merge::differences(&scanned, region, r, resolution);
+fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
+    let (scanned, unfinished) = scan_rings(input, r, scan::Mode::Geodesic, resolution);
+    let mut differences = merge::differences(&scanned, input, r, resolution);
     differences.extend(unfinished);
-    let (region, absorbed) = without_absorbed(scanned, region.area() < 0.0);
+    let (region, absorbed) = without_absorbed(scanned, input.area() < 0.0);
     differences.extend(absorbed);
+    if differences.is_empty() {
+        // The two meanings agree, and the merge has its distances to prove it by.
+        return close_merged(input, r, resolution);
+    }
     Outcome { region, differences, contradictions: 0 }
 }
 
@@ -108,7 +112,7 @@ fn without_absorbed(scanned: Region, far_is_solid: bool) -> (Region, Vec<Point>)
 /// The scanned rings, and a point of every ring whose scan did not come to its end.
 fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> (Region, Vec<Point>) {
     let mut unfinished = vec![];
-    let rings = region.rings.iter().filter_map(|ring| {
+    let rings = region.rings.iter().filter(|ring| ring.len() > 1).filter_map(|ring| {
         let scan::Scan { ring: scanned, finished } = scan::scan(ring, r, mode, resolution);
         if !finished {
             unfinished.extend(ring.vertices.first().map(|v| v.point));
@@ -131,7 +135,8 @@ fn exact_shift(bounds: &Bounds) -> Vector {
     let axis = |min: f64, max: f64| {
         let (center, extent) = (0.5 * (min + max), max - min);
         // From here on every coordinate keeps its last digit when a multiple of a large power of two is taken off.
-        if center.abs() < 4.0 * extent || !center.is_finite() {
+        // A flat drawing has no extent to round to.
+        if center.abs() < 4.0 * extent || !center.is_finite() || extent <= 0.0 {
             return 0.0;
         }
         let grain = extent.max(f64::MIN_POSITIVE).log2().ceil().exp2();
