@@ -13,7 +13,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use clopen::plane::{Point, Region, Ring, Vector, VertexId};
+use clopen::plane::{Arc, Link, Point, Region, Ring, Turn, Vector, VertexId};
 use clopen::reference::{self, Operation, ReferenceError};
 use clopen::rolling::{self, Outcome, Topology};
 use laws::{ACCURACY, Arbiter};
@@ -192,8 +192,8 @@ fn reduced(case: &Case, fails: impl Fn(&Case) -> bool) -> Case {
                 // An arc needs the end that it had.
                 let enough = smaller.rings[ring].len() > 2;
                 let sound = smaller.segments().all(|s| match s.link {
-                    clopen::plane::Link::Line => true,
-                    clopen::plane::Link::Arc(a) => ((s.end - a.center).norm() - a.radius).abs() < 1e-7 * a.radius,
+                    Link::Line => true,
+                    Link::Arc(a) => ((s.end - a.center).norm() - a.radius).abs() < 1e-7 * a.radius,
                 });
                 if enough && sound && still(&smaller) { input = smaller } else { i += chunk }
             }
@@ -245,7 +245,7 @@ fn part(number: u64, numbers: &mut Numbers) -> (String, Region) {
     if numbers.unit() < 0.65 {
         return shapes::mixed(number);
     }
-    let (name, region) = match numbers.below(7) {
+    let (name, region) = match numbers.below(9) {
         0 => (
             "spiral",
             shapes::spiral(
@@ -271,9 +271,32 @@ fn part(number: u64, numbers: &mut Numbers) -> (String, Region) {
             "slot",
             shapes::slotted_plate(12.0, 8.0, [2.0, 0.5, 3.0, 1.5][numbers.below(4)], numbers.between(0.5, 7.0)),
         ),
-        _ => ("nested", nested(numbers)),
+        6 => ("nested", nested(numbers)),
+        _ => ("bulges", bulges(numbers)),
     };
     (format!("{name} {number}"), region)
+}
+
+/// A star whose links are arcs that bulge to either side.
+fn bulges(numbers: &mut Numbers) -> Region {
+    let n = 3 + numbers.below(14);
+    let (inner, bend) = (numbers.between(1.0, 6.0), numbers.between(0.05, 0.6));
+    let mut ring = Ring::polygon((0..n).map(|k| {
+        let (sin, cos) = (std::f64::consts::TAU * (k as f64 + numbers.between(0.0, 0.5)) / n as f64).sin_cos();
+        Point::new(cos, sin) * numbers.between(inner, 7.0)
+    }));
+    for i in 0..n {
+        let s = ring.segment(i);
+        let bulge = numbers.between(-bend, bend);
+        if numbers.unit() < 0.7 && bulge.abs() > 0.01 {
+            let chord = s.end - s.start;
+            let center = nalgebra::center(&s.start, &s.end)
+                + Vector::new(-chord.y, chord.x) * ((1.0 - bulge * bulge) / (4.0 * bulge));
+            let turn = if bulge > 0.0 { Turn::Left } else { Turn::Right };
+            ring.vertices[i].link = Link::Arc(Arc { center, radius: (s.start - center).norm(), turn });
+        }
+    }
+    Region::new(vec![ring])
 }
 
 /// Disks that do not meet.

@@ -59,25 +59,23 @@ pub fn hausdorff(a: &Region, b: &Region, r: f64) -> (f64, Point) {
     }
 }
 
-/// How far `inner` pokes out of `outer`, and where.
-pub fn outside(inner: &Region, outer: &Region, r: f64) -> (f64, Point) {
-    let index = BoundaryIndex::new(outer);
+/// How far the containment fails that the operation promises, and where: a closing holds its input, an opening lies in it.
+///
+/// Asked at the boundary of the input, which also holds for results whose rings overlap each other, as those that keep
+/// the topology do: there solid is what is wound around at least once.
+pub fn containment(input: &Region, output: &Region, operation: Operation, r: f64) -> (f64, Point) {
+    let index = BoundaryIndex::new(output);
     let mut worst = (0.0, Point::origin());
-    for p in samples(inner, r) {
+    for p in samples(input, r) {
         let d = index.distance(p);
-        if d > worst.0 && index.winding_number(p) <= 0 {
+        if d.is_finite() && d > worst.0 && (index.winding_number(p) > 0) != (operation == Operation::Close) {
             worst = (d, p);
         }
     }
-    worst
-}
-
-/// The containment that the operation promises: a closing holds its input, an opening lies in it.
-pub fn containment(input: &Region, output: &Region, operation: Operation, r: f64) -> (f64, Point) {
-    match operation {
-        Operation::Close => outside(input, output, r),
-        Operation::Open => outside(output, input, r),
+    if output.is_empty() && !input.is_empty() && operation == Operation::Close {
+        worst = (f64::INFINITY, input.bounds().center());
     }
+    worst
 }
 
 fn bits(p: Point) -> (u64, u64) {
@@ -111,13 +109,15 @@ pub fn lost_vertices(input: &Region, output: &Region, operation: Operation, reac
     (still, lost)
 }
 
-/// Of vertices that seem lost those that a disk larger by a millionth still touches: they need not have moved.
+/// Of vertices that seem lost those that a disk larger by a thousandth still touches: they need not have moved.
+///
+/// The others may have moved by less than a rounding shows at the radius itself; at the larger one they lie deeper.
 pub fn truly_still(lost: Vec<Point>, input: &Region, operation: Operation, r: f64) -> Vec<Point> {
     if lost.is_empty() {
         return lost;
     }
-    let witness = Witness::new(input, radius(r * (1.0 + 1e-6)), operation);
-    lost.into_iter().filter(|&p| witness.depth(p) <= 1e-9 * r).collect()
+    let witness = Witness::new(input, radius(r * 1.001), operation);
+    lost.into_iter().filter(|&p| witness.depth(p) <= 1e-10 * r).collect()
 }
 
 /// Whether a vertex with an identity stands where the input's vertex of that identity stands.
