@@ -530,3 +530,25 @@ fn a_thin_part_with_concave_arcs_vanishes() {
     }]);
     obeys(&input, 2.151014385269252, Operation::Open);
 }
+
+/// The outline of a portrait, the solid opened along the curve: a thin fold of many links at the end of a wedge.
+#[test]
+fn keeping_opens_a_fold_at_the_end_of_a_wedge_without_adding_to_it() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            line(14.329524386562763, -22.436678062042066),
+            line(13.619999999999997, -23.996999999999996),
+            line(15.275665413058517, -22.842290462648773),
+            line(14.434889865247897, -23.351717995318406),
+            line(14.42274901697407, -23.369508928458536),
+            line(14.410926769193786, -23.387513148970022),
+            line(14.366897164419711, -23.46154783206772),
+            line(14.356722049495568, -23.480531628713415),
+            line(14.119437820762379, -23.18523248477795),
+            line(14.98867313164098, -22.601534773133523),
+            line(22.458999999999993, -23.649),
+            line(22.458999999999993, -22.067),
+        ],
+    }]);
+    obeys(&input, 0.6586619477807863, Operation::Open);
+}
