@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clopen::io::svg::{self, Curves, Drawing, ReadError, ReadOptions, Strokes, WarningKind};
-use clopen::plane::{Link, Point, Region, Ring};
+use clopen::plane::{Joint, Link, Point, Region};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
@@ -152,5 +152,314 @@ fn countries_glyphs_icons_and_parts_read_whole() {
         let difference = difference(&polygons(&read[0]), &polygons(&read[1]));
         println!("{name} difference {difference} {sampling}");
         assert!(difference <= sampling, "{name}: {difference} beyond {sampling}");
+        assert!((read[0].area() - read[1].area()).abs() <= sampling, "{name}");
+        assert_eq!(read[0].topology(), read[1].topology(), "{name}");
     }
+}
+
+/// The coordinates of all vertices, in the file's own axes.
+fn points(drawing: &Drawing) -> Vec<(f64, f64)> {
+    drawing.region.rings.iter().flat_map(|r| r.vertices.iter().map(|v| (v.point.x, 0.0 - v.point.y))).collect()
+}
+
+fn kinds(drawing: &Drawing) -> Vec<&WarningKind> {
+    drawing.warnings.iter().map(|w| &w.kind).collect()
+}
+
+#[test]
+fn coordinates_keep_every_digit() {
+    let d = drawing("<path d='M0.1 0.2L33.333333333333336 1e-7 44.00000000000001 55.123456789012345 .7 60z'/>");
+    let expected = [(0.1, 0.2), (33.333333333333336, 1e-7), (44.00000000000001, 55.123456789012345), (0.7, 60.0)];
+    let found = points(&d);
+    assert_eq!(found.len(), 4);
+    assert!(expected.iter().all(|e| found.contains(e)), "{found:?}");
+    // Other shapes too, and inside groups without transform, nested svg and use without offset.
+    for body in [
+        "<rect x='0.1' y='0.3' width='0.7' height='10.1'/>",
+        "<polygon points='0.1,.3 .7999999999999999 .3 0.7999999999999999 10.4 0.1 10.4'/>",
+        "<g id='g'><svg><rect x='0.1' y='0.3' width='0.7' height='10.1'/></svg></g>",
+        "<defs><rect id='r' x='0.1' y='0.3' width='0.7' height='10.1'/></defs><use href='#r'/>",
+        "<symbol id='s' overflow='visible'><path d='M0.1 .3H0.7999999999999999V10.4H.1z'/></symbol><use href='#s'/>",
+        "<rect id='r' x='0.1' y='0.3' width='0.7' height='10.1'/><use href='#r'/><use href='#r'/>",
+    ] {
+        let mut found = points(&drawing(body));
+        found.sort_by(|a, b| a.partial_cmp(b).unwrap());
+        let (right, bottom) = (0.1 + 0.7, 0.3 + 10.1);
+        assert_eq!(found, [(0.1, 0.3), (0.1, bottom), (right, 0.3), (right, bottom)], "{body}");
+    }
+}
+
+#[test]
+fn transforms_are_those_of_the_file_in_double_precision() {
+    let turn = 30f64.to_radians();
+    let d = drawing(
+        "<defs><g id='g' transform='scale(1.1)'><path d='M1 2L3.3 2 3.3 7z'/></g></defs>\
+         <g transform='translate(20.2 30.3)'><use x='.7' y='.9' transform='rotate(30)' xlink:href='#g' \
+         xmlns:xlink='http://www.w3.org/1999/xlink'/></g>",
+    );
+    let found = points(&d);
+    for (x, y) in [(1.0, 2.0), (3.3, 2.0), (3.3, 7.0)] {
+        let (u, v) = (1.1 * x + 0.7, 1.1 * y + 0.9);
+        let p = (20.2 + turn.cos() * u - turn.sin() * v, 30.3 + turn.sin() * u + turn.cos() * v);
+        let near = |q: &&(f64, f64)| (q.0 - p.0).abs() < 1e-14 * 40.0 && (q.1 - p.1).abs() < 1e-14 * 40.0;
+        assert!(found.iter().any(|q| near(&q)), "{p:?} not in {found:?}");
+    }
+    assert_eq!(kinds(&d), Vec::<&WarningKind>::new());
+}
+
+#[test]
+fn symbols_are_fitted_into_their_size() {
+    let symbol = "<symbol id='s' viewBox='0 0 10 10'><rect width='10' height='5'/></symbol>";
+    let d = drawing(&format!("{symbol}<use href='#s' x='3' y='4' width='20' height='40'/>"));
+    // Ten units into twenty wide and forty high: scaled by two, ten below the top.
+    let mut found = points(&d);
+    found.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    assert_eq!(found, [(3.0, 14.0), (3.0, 24.0), (23.0, 14.0), (23.0, 24.0)]);
+    assert_eq!(kinds(&d), Vec::<&WarningKind>::new());
+}
+
+#[test]
+fn circles_are_arcs_under_turns_and_scales_and_curves_under_stretches() {
+    for (body, area, arcs) in [
+        ("<circle cx='50' cy='50' r='20'/>", 400.0, true),
+        ("<circle cx='5' cy='5' r='2' transform='rotate(17) scale(-3)'/>", 36.0, true),
+        ("<ellipse rx='2' ry='8' transform='scale(4 1)'/>", 64.0, true),
+        ("<circle r='10%' cx='50%' cy='50%'/>", 100.0, true),
+        ("<circle r='5' transform='scale(2 1)'/>", 50.0, false),
+        ("<ellipse rx='2' ry='8'/>", 16.0, false),
+    ] {
+        let d = drawing(body);
+        let expected = area * std::f64::consts::PI;
+        let tolerance = if arcs { 1e-6 } else { 1e-5 };
+        assert!((d.region.area() - expected).abs() < tolerance * expected, "{body} {}", d.region.area());
+        assert!(d.region.segments().all(|s| (s.link != Link::Line) == arcs), "{body}");
+        assert_eq!(d.region.rings.len(), 1);
+        assert_eq!(d.region.rings[0].len() == 4, arcs);
+    }
+}
+
+#[test]
+fn clip_paths_are_applied_with_those_inside_them() {
+    let clips = "<clipPath id='left' clip-path='url(#top)'><rect width='50' height='100'/></clipPath>\
+                 <clipPath id='top'><path d='M0 0H100V50H0z'/></clipPath>\
+                 <clipPath id='box' clipPathUnits='objectBoundingBox'><rect width='.5' height='1'/></clipPath>";
+    for (body, area) in [
+        ("<circle cx='50' cy='50' r='20' clip-path='url(#top)'/>", 200.0 * std::f64::consts::PI),
+        ("<circle cx='50' cy='50' r='20' clip-path='url(#left)'/>", 100.0 * std::f64::consts::PI),
+        (
+            "<g clip-path='url(#top)'><g transform='translate(0 -10)'><rect y='40' width='10' height='40'/></g></g>",
+            200.0,
+        ),
+        ("<g transform='translate(0 -10)' clip-path='url(#top)'><rect y='40' width='10' height='40'/></g>", 100.0),
+        ("<rect x='20' width='10' height='40' clip-path='url(#box)'/>", 200.0),
+        ("<rect width='10' height='10' clip-path='url(#top)'/>", 100.0),
+    ] {
+        let d = drawing(&format!("{clips}{body}"));
+        assert!((d.region.area() - area).abs() < 1e-9 * area, "{body} {} {area}", d.region.area());
+    }
+    let error = read(
+        "<svg viewBox='0 0 9 9'><clipPath id='c'><rect x='5' width='1' height='1'/></clipPath>\
+        <rect width='1' height='1' clip-path='url(#c)'/></svg>",
+    );
+    assert!(matches!(error, Err(ReadError::NothingFilled { .. })));
+}
+
+#[test]
+fn what_is_left_out_is_named() {
+    let d = drawing(
+        "<rect id='seen' width='9' height='9'/>\n<g id='layer' style='display:none'><path d='M0 0H9V9'/><rect width='1' \
+         height='1'/></g>\n<rect id='ghost' visibility='hidden' width='9' height='9'/>\n<path id='cut' d='M20 20H30V30L oops'/>\n\
+         <use href='#nowhere'/>\n<image id='photo' width='1' height='1' href='photo.png'/>\n<line id='hair' x2='5' stroke='red'/>\n\
+         <mask id='m'><rect width='9' height='9' fill='white'/></mask><rect id='masked' x='50' width='9' height='9' mask='url(#m)'/>",
+    );
+    let found: Vec<(Option<&str>, usize)> = d.warnings.iter().map(|w| (w.place.id.as_deref(), w.place.line)).collect();
+    let expected = [
+        (Some("layer"), 2),
+        (Some("ghost"), 3),
+        (Some("cut"), 4),
+        (None, 5),
+        (Some("photo"), 6),
+        (Some("hair"), 7),
+        (Some("masked"), 8),
+    ];
+    assert_eq!(found, expected, "{:?}", d.warnings);
+    assert_eq!(d.warnings[0].kind, WarningKind::Hidden { shapes: 2 });
+    assert_eq!(d.warnings[1].kind, WarningKind::Invisible);
+    assert!(matches!(d.warnings[2].kind, WarningKind::PathCutShort { .. }));
+    assert_eq!(d.warnings[3].kind, WarningKind::UnresolvedUse { href: "#nowhere".to_owned() });
+    assert_eq!(d.warnings[4].kind, WarningKind::Image);
+    assert_eq!(d.warnings[5].kind, WarningKind::StrokeOnly);
+    assert_eq!(d.warnings[6].kind, WarningKind::Mask);
+    // Two squares and the triangle that was drawn before the path data broke off.
+    assert!((d.region.area() - (81.0 + 81.0 + 50.0)).abs() < 1e-9, "{}", d.region.area());
+}
+
+#[test]
+fn a_file_that_cannot_be_used_gets_one_clear_sentence() {
+    let svg = |body: &str| format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9'>\n{body}</svg>");
+    for (text, words) in [
+        (String::new(), "empty"),
+        ("   \n".to_owned(), "empty"),
+        ("solid cube".to_owned(), "no SVG"),
+        ("<html><body/></html>".to_owned(), "<html>"),
+        ("<svg viewBox='0 0 9 9'><path d='M0 0".to_owned(), "breaks off"),
+        ("<svg viewBox='0 0 9 9'><g><g>".to_owned(), "breaks off"),
+        ("<svg viewBox='0 0 9 9'>\n<a></b></svg>".to_owned(), "line 2"),
+        ("<svg width='0' height='0'/>".to_owned(), "size"),
+        (svg(""), "nothing in it"),
+        (svg("<path id='big' d='M0 0H1e12V1'/>"), "<path id=\"big\"> on line 2 has the coordinate 1e12"),
+        (svg("<path d='M0 0H1e39V1z'/>"), "1e39"),
+        (svg("<rect width='1' height='1' transform='scale(1e11)'/>"), "beyond 1e9"),
+        (svg("<path d='M0 0L9 9' stroke='red' fill='none'/>"), "--strokes"),
+        (svg("<path d='M0 0H9V9' fill='none'/>"), "without fill"),
+        (svg("<g display='none'><path d='M0 0H9V9'/></g>"), "hidden"),
+        (svg("<path d='M0 0NaN 3'/>"), "no filled shape"),
+    ] {
+        let error = read(&text).map(|d| d.region.area()).unwrap_err().to_string();
+        assert!(error.contains(words), "{text}: {error}");
+        assert!(!error.contains('\n') && error.len() < 200, "{error}");
+    }
+    assert!(matches!(svg::read(b"\x1f\x8b\x08\x00", &ReadOptions::default()), Err(ReadError::NotText { offset: 1 })));
+}
+
+#[test]
+fn sizes_come_from_the_file_or_the_options() {
+    let text = "<svg viewBox='0 0 100 100'><rect x='10' y='10' width='50' height='20'/></svg>";
+    let mm = |options: ReadOptions| svg::read(text.as_bytes(), &options).unwrap().mm_per_unit;
+    assert_eq!(mm(ReadOptions::default()), None);
+    assert_eq!(mm(ReadOptions { dpi: Some(100.0), ..ReadOptions::default() }), Some(0.254));
+    assert_eq!(mm(ReadOptions { width_mm: Some(25.0), ..ReadOptions::default() }), Some(0.5));
+    let wrong = ReadOptions { dpi: Some(-1.0), ..ReadOptions::default() };
+    assert!(matches!(svg::read(text.as_bytes(), &wrong), Err(ReadError::InvalidOption { .. })));
+}
+
+/// Every vertex with its links, from the lowest vertex on, so that rings compare whatever vertex they start at.
+fn normal_form(region: &Region) -> Vec<Vec<(Point, Link)>> {
+    let mut rings: Vec<Vec<(Point, Link)>> = Vec::new();
+    for ring in &region.rings {
+        let mut vertices: Vec<(Point, Link)> = ring.vertices.iter().map(|v| (v.point, v.link)).collect();
+        let first = (0..vertices.len()).min_by(|&a, &b| key(&vertices[a]).partial_cmp(&key(&vertices[b])).unwrap());
+        vertices.rotate_left(first.unwrap_or(0));
+        rings.push(vertices);
+    }
+    rings.sort_by(|a, b| key(&a[0]).partial_cmp(&key(&b[0])).unwrap());
+    rings
+}
+
+fn key(vertex: &(Point, Link)) -> (f64, f64) {
+    (vertex.0.x, vertex.0.y)
+}
+
+#[test]
+fn what_is_written_reads_back_the_same_bit_for_bit() {
+    let mut drawings: Vec<(String, Vec<u8>)> = Vec::new();
+    let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples");
+    for folder in [Some(samples), shared()].into_iter().flatten() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "svg") {
+                drawings.push((path.display().to_string(), std::fs::read(&path).unwrap()));
+            }
+        }
+    }
+    drawings.sort();
+    let mut compared = 0;
+    for (name, bytes) in drawings {
+        let Ok(first) = svg::read(&bytes, &ReadOptions::default()) else { continue };
+        let written = svg::write(&first, &first.region);
+        let second = svg::read(written.as_bytes(), &ReadOptions::default()).unwrap();
+        assert_eq!((first.mm_per_unit, &first.page), (second.mm_per_unit, &second.page), "{name}");
+        if first.sources.elements.len() > 1 {
+            // Written as one shape, the drawing may be sampled more coarsely: the ends of its commands stay.
+            let written: Vec<Point> = second.region.rings.iter().flat_map(|r| &r.vertices).map(|v| v.point).collect();
+            let vertices = first.region.rings.iter().flat_map(|r| &r.vertices);
+            assert!(vertices.filter(|v| v.joint == Joint::Corner).all(|v| written.contains(&v.point)), "{name}");
+            continue;
+        }
+        let (a, b) = (normal_form(&first.region), normal_form(&second.region));
+        assert_eq!(a.len(), b.len(), "{name}");
+        let mut moved = 0.0f64;
+        for (a, b) in a.iter().zip(&b) {
+            assert_eq!(a.len(), b.len(), "{name}");
+            for (v, w) in a.iter().zip(b) {
+                assert_eq!(v.0, w.0, "{name}");
+                match (v.1, w.1) {
+                    (Link::Arc(v), Link::Arc(w)) => {
+                        assert_eq!(v.turn, w.turn);
+                        moved =
+                            moved.max((v.center - w.center).norm() / v.radius).max((v.radius / w.radius - 1.0).abs());
+                    }
+                    (v, w) => assert_eq!(v, w, "{name}"),
+                }
+            }
+        }
+        println!("{name}: {} curves kept, arcs moved {moved:e}", written.matches(['C', 'Q']).count());
+        assert!(moved < 1e-9, "{name}: {moved:e}");
+        compared += 1;
+    }
+    assert!(compared >= 6);
+}
+
+#[test]
+fn samples_read_with_a_size_and_without_warning() {
+    for (name, width, components, holes) in [
+        ("bracket", 110.0, 1, 7),
+        ("gear", 88.0, 1, 6),
+        ("inch", 88.9, 1, 5),
+        ("maple-leaf", 95.0, 1, 0),
+        ("vietnam", 105.496, 27, 0),
+        ("word", 201.0, 4, 3),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples").join(format!("{name}.svg"));
+        let d = svg::read(&std::fs::read(path).unwrap(), &ReadOptions::default()).unwrap();
+        assert_eq!(d.warnings, [], "{name}");
+        let found = d.region.bounds().width() * d.mm_per_unit.unwrap();
+        assert!((found - width).abs() < 0.2 * width, "{name}: {found} mm wide");
+        let topology = d.region.topology();
+        assert_eq!((topology.components, topology.holes), (components, holes), "{name}");
+    }
+}
+
+#[test]
+fn cut_and_damaged_files_neither_panic_nor_hang() {
+    let mut files: Vec<String> = vec![
+        "<svg xmlns='http://www.w3.org/2000/svg' width='9mm' viewBox='0 0 9 9'><style>.a{fill:none}#b{fill-rule:evenodd}</style>\
+         <defs><symbol id='s' viewBox='0 0 2 2'><circle r='1' cx='1' cy='1'/></symbol><clipPath id='c'><rect width='5' height='5'/>\
+         </clipPath></defs><use href='#s' x='2' width='3' height='3'/><g clip-path='url(#c)' transform='rotate(20) scale(2,3)'>\
+         <path id='b' class='a' d='M1 1C2 3 4 5 6 1S3 3 2 2Q1 1 3 4T1 2A2 3 20 1 0 4 4H3V2Z' stroke='red' stroke-dasharray='1 2'/>\
+         <ellipse rx='3' ry='2'/></g><rect rx='1' x='4' y='4' width='3' height='3' style='fill:blue'/></svg>"
+            .to_owned(),
+    ];
+    for name in ["bracket", "maple-leaf", "word"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples").join(format!("{name}.svg"));
+        files.push(std::fs::read_to_string(path).unwrap());
+    }
+    let options = ReadOptions { strokes: Strokes::Areas, flatten: 1e-4, ..ReadOptions::default() };
+    let mut outcomes = [0, 0];
+    let mut seed = 1u64;
+    let mut random = |below: usize| {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 33) as usize % below
+    };
+    for file in &files {
+        let bytes = file.as_bytes();
+        for end in 0..bytes.len() {
+            outcomes[usize::from(svg::read(&bytes[..end], &options).is_ok())] += 1;
+        }
+        for _ in 0..400 {
+            let mut damaged = bytes.to_vec();
+            for _ in 0..1 + random(4) {
+                let (at, alphabet) = (random(damaged.len()), b"0123456789.-eE <>/\"'#MLCQAZmz%&\xff");
+                damaged[at] = alphabet[random(alphabet.len())];
+            }
+            let result = svg::read(&damaged, &options);
+            if let Ok(d) = &result {
+                assert!(d.region.area() > 0.0 && d.region.bounds().diagonal().is_finite());
+                assert!(svg::read(svg::write(d, &d.region).as_bytes(), &options).is_ok());
+            }
+            outcomes[usize::from(result.is_ok())] += 1;
+        }
+    }
+    println!("{} refused, {} read", outcomes[0], outcomes[1]);
+    assert!(outcomes[1] > 500);
 }

@@ -1,14 +1,15 @@
 //! The exact offset of a closed region: where the centre of a disk runs that rolls around it.
 //!
-//! Local, in linear time: after a closing by R no concave feature is tighter than R, and no two boundaries come nearer to
-//! each other than 2R across the empty side, so that an offset by d <= R cannot cross itself. Stages:
+//! Local: after a closing by R every point of the boundary, corners aside, is touched by a disk of radius R that lies
+//! outside of the region, so that an offset by d <= R can cross itself only at arcs about corners. Stages:
 //!
 //! 1. links shorter than [`TINY_LINK`] are dropped, because their direction is noise;
 //! 2. lines shift, convex arcs grow, concave arcs shrink, to a point when they are as tight as the disk;
 //! 3. at every vertex the pieces meet: an arc about a convex corner, a common point at a tangent joint, a mitre at a
 //!    sample of a smooth concave curve. A true concave corner is an error;
 //! 4. pieces without length, and those that run backwards (chords of a concave curve as tight as the disk), are taken
-//!    out, their neighbours meet at their intersection, and that place is measured against the region.
+//!    out, their neighbours meet at their intersection, and that place is measured against the region;
+//! 5. where the disk cannot pass between two corners, the arcs about them cross and are cut ([`necks`]).
 
 use crate::plane::{
     Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Turn, Vertex, right_normal, turn_angle,
@@ -17,6 +18,7 @@ use crate::plane::{
 use carrier::{Carrier, meet};
 
 mod carrier;
+mod necks;
 
 /// Turn in radians up to which a joint counts as tangent. The joint's point is wrong by the distance times an eighth of
 /// its square: a billionth of the distance.
@@ -104,7 +106,7 @@ pub fn offset(closed: &Region, distance: f64) -> Result<Region, OffsetError> {
             return Err(OffsetError::NoRoom { at });
         }
     }
-    Ok(Region::new(rings))
+    Ok(Region::new(necks::cut_necks(rings, closed, distance)?))
 }
 
 /// A piece of the offset and the joint where it starts.

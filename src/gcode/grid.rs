@@ -5,8 +5,8 @@
 
 use std::fmt;
 
-/// The largest multiple: beyond it neither the columns nor single precision hold the number.
-const LARGEST: f64 = 1e10;
+/// The largest multiple, 100 m in ten thousandths of a millimetre: five such numbers and a feed fit a line of 79.
+const LARGEST: f64 = 1e9;
 
 /// The places that can be written: multiples of `step` millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]

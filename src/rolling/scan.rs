@@ -15,7 +15,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-use super::carrier::{center_of_chord, circle_circle, line_circle};
+use super::carrier::{Carrier, center_of_chord};
 use super::merge::{ROUNDING_STEPS, SHRINK};
 use super::track::{Contact, Track};
 use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex, right_normal, turn_angle};
@@ -439,10 +439,13 @@ impl<'a> Roller<'a> {
             let (t, s) = (along - reach, (apex - right.start).dot(&w) + reach);
             (Contact { at: t, point: left.start + u * t }, Contact { at: s, point: right.start + w * s.max(0.0) })
         } else {
+            // Rolling back from the corner, the disk first fits at the contacts nearest to it.
             let roots = left.carrier(r).roots(&right.carrier(r), MIN_EXCESS * r);
-            roots.iter().map(|o| (left.contact(o), right.contact(o))).find(|(t, s)| {
+            let touching = roots.iter().filter_map(|o| Some((left.touch(o, r)?, right.touch(o, r)?)));
+            let inside = touching.filter(|(t, s)| {
                 t.at > min_link && t.at <= left.length + min_link && s.at >= -min_link && s.at < right.length - min_link
-            })?
+            });
+            inside.max_by(|a, b| a.0.at.total_cmp(&b.0.at))?
         };
         let fits = first.at > min_link
             && first.at <= left.length + min_link
@@ -451,27 +454,28 @@ impl<'a> Roller<'a> {
         fits.then_some((first.point, second.point))
     }
 
-    /// Where a disk that rests on `p` and lies ahead of it touches `track`.
+    /// Where a disk that rests on `p` first touches `track`, looked for from its start.
     fn touch_ahead(&self, p: Point, track: &Track) -> Option<Contact> {
-        let centers = self.centers_through(p, track);
-        centers.filter(|o| (o - p).dot(&track.tangent_at(track.contact(*o).point)) >= 0.0).next_touch(track)
+        let min_link = MIN_LINK * self.r;
+        let contacts = self.resting_on(p, track).into_iter().flatten().filter(|t| t.at >= -min_link);
+        contacts.min_by(|a, b| a.at.total_cmp(&b.at))
     }
 
-    /// Where a disk that rests on `p`, a point further on, touches `track`.
+    /// Where a disk that rests on `p` first touches `track`, looked for from its end.
     fn touch_behind(&self, track: &Track, p: Point) -> Option<Contact> {
-        let centers = self.centers_through(p, track);
-        centers.filter(|o| (o - p).dot(&track.tangent_at(track.contact(*o).point)) <= 0.0).next_touch(track)
+        let min_link = MIN_LINK * self.r;
+        let contacts = self.resting_on(p, track).into_iter().flatten().filter(|t| t.at <= track.length + min_link);
+        contacts.max_by(|a, b| a.at.total_cmp(&b.at))
     }
 
-    fn centers_through(&self, p: Point, track: &Track) -> Centers {
-        use super::carrier::Carrier;
+    /// The contacts with `track` of the disks that rest on `p`.
+    fn resting_on(&self, p: Point, track: &Track) -> [Option<Contact>; 2] {
         // A point of the track itself is touched there; rounding must not lose it.
         let slack = MIN_EXCESS * self.r;
-        Centers(match track.carrier(self.r) {
-            Carrier::Line(q, u) => line_circle(q, u, p, self.r, slack).iter().collect(),
-            Carrier::Circle(c, radius) => circle_circle(p, self.r, c, radius, slack).iter().collect(),
-            Carrier::Fixed(c) => vec![c],
-        })
+        let roots = track.carrier(self.r).roots(&Carrier::Circle(p, self.r), slack);
+        let rests = |o: &Point| ((o - p).norm() - self.r).abs() <= MIN_LINK * self.r;
+        let mut contacts = roots.iter().filter(rests).map(|o| track.touch(o, self.r));
+        [contacts.next().flatten(), contacts.next().flatten()]
     }
 
     /// A link followed by an arc of the disk that ends at `c`: roll back until the disk rests on `c`.
@@ -647,18 +651,4 @@ pub(super) fn follows_samples(excess: f64, l1: f64, l2: f64, r: f64) -> bool {
     // Samples are evenly spaced in the parameter, not in length: a little room for that.
     const UNEVEN: f64 = 1e-3;
     excess < 1.0 && r * (0.5 * excess).tan() <= 0.5 * l1.min(l2) * (1.0 + UNEVEN)
-}
-
-/// Centres of disks that rest on a point and touch a track.
-struct Centers(Vec<Point>);
-
-impl Centers {
-    fn filter(mut self, keep: impl Fn(&Point) -> bool) -> Centers {
-        self.0.retain(keep);
-        self
-    }
-
-    fn next_touch(self, track: &Track) -> Option<Contact> {
-        self.0.first().map(|o| track.contact(*o))
-    }
 }

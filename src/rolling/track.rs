@@ -83,6 +83,14 @@ impl Track {
         }
     }
 
+    /// The contact of a disk of radius `r` with this centre, where it touches the continued track from the right.
+    pub(super) fn touch(&self, center: Point, r: f64) -> Option<Contact> {
+        // Centres come from crossings of carriers; along flat crossings they are good to the root of the rounding.
+        const TOUCHING: f64 = 1e-7;
+        let contact = self.contact(center);
+        ((center - contact.point).norm() - r).abs().le(&(TOUCHING * r)).then_some(contact)
+    }
+
     /// Unit direction of travel at a point of the track.
     pub(super) fn tangent_at(&self, p: Point) -> Vector {
         match self.shape {

@@ -67,6 +67,68 @@ fn holes_shrink_by_the_same_rule_and_one_as_large_as_the_tool_is_a_point() {
     assert!(matches!(offset(&plate(2, 1, 1.4), 1.5), Err(OffsetError::TooTight { radius, .. }) if radius == 1.4));
 }
 
+/// Two disks of radius 10 that overlap, the notches between them filled by arcs of `radius`; turned and moved.
+fn two_disks(radius: f64, turned: f64, moved: Vector) -> Region {
+    let fillet = p(0.0, ((10.0 + radius) * (10.0 + radius) - 64.0).sqrt());
+    let place = |q: Point| {
+        let (sin, cos) = turned.sin_cos();
+        Point::new(cos * q.x - sin * q.y, sin * q.x + cos * q.y) + moved
+    };
+    // Where the upper fillet touches the right disk.
+    let t = p(8.0, 0.0) + (fillet - p(8.0, 0.0)) * (10.0 / (10.0 + radius));
+    let arc = |from: Point, center: Point, radius: f64, turn: Turn| Vertex {
+        link: Link::Arc(Arc { center: place(center), radius, turn }),
+        ..Vertex::corner(place(from))
+    };
+    Region::new(vec![Ring {
+        vertices: vec![
+            arc(p(t.x, -t.y), p(8.0, 0.0), 10.0, Turn::Left),
+            arc(p(18.0, 0.0), p(8.0, 0.0), 10.0, Turn::Left),
+            arc(t, fillet, radius, Turn::Right),
+            arc(p(-t.x, t.y), p(-8.0, 0.0), 10.0, Turn::Left),
+            arc(p(-18.0, 0.0), p(-8.0, 0.0), 10.0, Turn::Left),
+            arc(p(-t.x, -t.y), p(0.0, -fillet.y), radius, Turn::Right),
+        ],
+    }])
+}
+
+#[test]
+fn arcs_that_touch_stay_joined_without_tiny_elements() {
+    for (turned, moved) in [(0.0, Vector::zeros()), (0.7, Vector::new(1e4, -3e3))] {
+        for (radius, count) in [(3.0, 6), (2.0, 4)] {
+            let region = two_disks(radius, turned, moved);
+            let path = offset(&region, 2.0).unwrap();
+            assert_eq!(path.rings[0].len(), count);
+            let radii: Vec<f64> = path.rings[0]
+                .vertices
+                .iter()
+                .filter_map(|v| if let Link::Arc(a) = v.link { Some(a.radius) } else { None })
+                .collect();
+            assert!(radii.iter().all(|r| *r == 12.0 || *r == 1.0), "{radii:?}");
+            let (near, far) = distances(&path, &region);
+            assert!((near - 2.0).abs() < 1e-10 && (far - 2.0).abs() < 1e-10, "{near} {far}");
+        }
+    }
+}
+
+#[test]
+fn the_path_does_not_pass_a_neck() {
+    // Two diamonds tip to tip, 2 apart: a disk of radius 2 does not pass, and comes to rest above and below.
+    let diamond = |x: f64| Ring::polygon([p(x + 20.0, 0.0), p(x, 20.0), p(x - 20.0, 0.0), p(x, -20.0)]);
+    let part = Region::new(vec![diamond(-21.0), diamond(21.0)]);
+    for (radius, smallest) in [(2.0, 2.0), (2.1, 2.0), (2.3, 1.0), (2.1, 0.5)] {
+        let closed =
+            crate::rolling::close(&part, crate::units::Radius::new(radius).unwrap(), crate::rolling::Topology::Merge);
+        let path = offset(&closed.region, smallest).unwrap();
+        let (near, far) = distances(&path, &closed.region);
+        assert!((near - smallest).abs() < 1e-9 && (far - smallest).abs() < 1e-9, "{radius} {smallest}: {near} {far}");
+        // One path around both, or one around each where the tool passes.
+        let passes = smallest < 1.0;
+        assert_eq!(path.rings.len(), if passes { 2 } else { 1 }, "{radius} {smallest}");
+        assert!(path.rings.iter().all(|r| r.area() > 0.0));
+    }
+}
+
 #[test]
 fn what_is_not_closed_is_refused_with_the_place() {
     let sharp = rounded_l(0.0);

@@ -275,6 +275,44 @@ fn arcs_that_rounding_would_break_become_lines_or_two_arcs() {
 }
 
 #[test]
+fn a_controller_is_added_as_data() {
+    let odd = Dialect {
+        name: "odd",
+        comment_open: ";",
+        comment_close: "",
+        decimals_mm: 3,
+        arcs: false,
+        line_numbers: true,
+        ..GRBL
+    };
+    let text = program(&rounded_l(3.0), &job(), &odd, WriteOptions::default());
+    assert!(text.starts_with(";tool diameter 4 mm\n"));
+    let lines: Vec<&str> = text.lines().filter(|l| !l.starts_with(';')).collect();
+    assert!(lines.len() > 50 && lines.iter().all(|l| l.starts_with('N') && !l.contains("G2 ") && !l.contains("G3 ")));
+    assert!(lines[0].ends_with(" G21"));
+    assert_eq!(Dialect::by_name("LinuxCNC"), Some(LINUXCNC));
+    assert_eq!(Dialect::by_name("odd"), None);
+}
+
+#[test]
+fn the_longest_numbers_fit_a_line() {
+    let far = 99_000.123_4;
+    let arc = Arc { center: p(far, 0.0), radius: 999.999_9, turn: Turn::Left };
+    let start = arc.center - Vector::new(arc.radius, 0.0);
+    let moving = |to, z, kind| Move { to, z, kind, contour: 0 };
+    let mut toolpath = toolpath_of(vec![
+        moving(start, 5.0, MoveKind::Rapid),
+        moving(start, 5.0, MoveKind::Rapid),
+        moving(arc.travel(start, 2.0), -9_999.123_4, MoveKind::Ramp(Link::Arc(arc))),
+    ]);
+    toolpath.settings.plunge_feed = Speed::from_mm_per_min(987_654.321).unwrap();
+    for options in OPTIONS {
+        let text = write(&toolpath, &[], &GRBL, options).unwrap();
+        assert!(text.lines().all(|l| l.len() <= 79), "{text}");
+    }
+}
+
+#[test]
 fn what_cannot_be_written_is_an_error_with_the_contour() {
     let moving = |to, kind| Move { to, z: 5.0, kind, contour: 2 };
     for bad in [f64::NAN, f64::INFINITY, 1e9] {

@@ -115,14 +115,15 @@ impl EllipticArc {
         {
             return Some(self.rx * scale);
         }
-        let ImageAxes { major, minor, .. } = self.image_axes(affine);
-        (major - minor <= CIRCLE_TOLERANCE * major && minor > 0.0).then_some((major + minor) / 2.0)
+        let ImageAxes { first, second, .. } = self.image_axes(affine);
+        let largest = first.max(second);
+        ((first - second).abs() <= CIRCLE_TOLERANCE * largest && largest > 0.0).then_some((first + second) / 2.0)
     }
 
-    /// Half axes of the image and the direction of the longer one in degrees, y down as SVG writes it.
+    /// Half axes of the image and the direction of the first one in degrees, y down as SVG writes it.
     pub fn image_axes(&self, affine: &Affine) -> ImageAxes {
         if *affine == Affine::IDENTITY {
-            return ImageAxes { major: self.rx, minor: self.ry, degrees: self.rotation.to_degrees() };
+            return ImageAxes { first: self.rx, second: self.ry, degrees: self.rotation.to_degrees() };
         }
         // Rytz: the parameter at which the half axes of the image are reached.
         let (u, v) = self.axes(affine);
@@ -130,7 +131,7 @@ impl EllipticArc {
         let (sin, cos) = t.sin_cos();
         let (p, q) = (u * cos + v * sin, v * cos - u * sin);
         let (p, q) = if p.norm_squared() >= q.norm_squared() { (p, q) } else { (q, p) };
-        ImageAxes { major: p.norm(), minor: q.norm(), degrees: (-p.y).atan2(p.x).to_degrees() }
+        ImageAxes { first: p.norm(), second: q.norm(), degrees: (-p.y).atan2(p.x).to_degrees() }
     }
 
     /// The smallest box around the image, y up.
@@ -155,8 +156,9 @@ impl EllipticArc {
 /// The half axes of an ellipse in root units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ImageAxes {
-    pub major: f64,
-    pub minor: f64,
+    pub first: f64,
+    pub second: f64,
+    /// Direction of the first.
     pub degrees: f64,
 }
 

@@ -23,6 +23,7 @@ mod leftovers;
 mod options;
 mod outline;
 mod placement;
+mod rough;
 mod sample;
 mod shape;
 mod stroke;

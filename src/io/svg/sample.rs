@@ -170,7 +170,7 @@ fn draw(
             let c = affine.apply_y_up(control);
             let second = (from.coords - c.coords * 2.0 + to.coords).norm();
             let n = wang(second * 2.0, sampling.tolerance);
-            let inner = (1..n).map(|k| quadratic(from, c, to, k as f64 / n as f64));
+            let inner = (1..n).map(|k| quadratic(from, c, to, k, n));
             pen.curve(CurveKind::Quadratic(c), Link::Line, Joint::Smooth, inner, to);
             tangents(&[from, c, to])
         }
@@ -178,7 +178,7 @@ fn draw(
             let [c, d] = [c, d].map(|c| affine.apply_y_up(c));
             let second = |a: Point, b: Point, c: Point| (a.coords - b.coords * 2.0 + c.coords).norm();
             let n = wang(second(from, c, d).max(second(c, d, to)) * 6.0, sampling.tolerance);
-            let inner = (1..n).map(|k| cubic(from, c, d, to, k as f64 / n as f64));
+            let inner = (1..n).map(|k| cubic(from, c, d, to, k, n));
             pen.curve(CurveKind::Cubic(c, d), Link::Line, Joint::Smooth, inner, to);
             tangents(&[from, c, d, to])
         }
@@ -194,7 +194,7 @@ fn draw(
                 turn: if clockwise { Turn::Right } else { Turn::Left },
             });
             let kind = CurveKind::Elliptic {
-                radii: circle.map_or((axes.major, axes.minor), |r| (r, r)),
+                radii: circle.map_or((axes.first, axes.second), |r| (r, r)),
                 rotation: if circle.is_some() { 0.0 } else { axes.degrees },
                 large_arc: arc.sweep.abs() > PI,
                 sweep: clockwise,
@@ -203,7 +203,7 @@ fn draw(
             let (n, link, joint) = match kept {
                 // An arc of more than half a turn is two links.
                 Some(kept) => (if arc.sweep.abs() > PI { 2 } else { 1 }, Link::Arc(kept), Joint::Corner),
-                None => (arc_samples(arc, axes.major, sampling.tolerance), Link::Line, Joint::Smooth),
+                None => (arc_samples(arc, axes.first.max(axes.second), sampling.tolerance), Link::Line, Joint::Smooth),
             };
             let inner = (1..n).map(|k| arc.point(affine, arc.start + arc.sweep * (k as f64 / n as f64)));
             pen.curve(kind, link, joint, inner, to);
@@ -223,24 +223,26 @@ fn wang(second_derivative: f64, tolerance: f64) -> usize {
 }
 
 /// How many equal angles keep the chords of an arc within `tolerance`.
-fn arc_samples(arc: EllipticArc, major: f64, tolerance: f64) -> usize {
-    if tolerance >= major {
+fn arc_samples(arc: EllipticArc, longest: f64, tolerance: f64) -> usize {
+    if tolerance >= longest {
         return 1;
     }
-    let step = 2.0 * (1.0 - tolerance / major).acos();
+    let step = 2.0 * (1.0 - tolerance / longest).acos();
     (arc.sweep.abs() / step).ceil().clamp(1.0, MAX_SAMPLES) as usize
 }
 
-fn quadratic(a: Point, b: Point, c: Point, t: f64) -> Point {
-    let s = 1.0 - t;
-    Point::from(a.coords * (s * s) + b.coords * (2.0 * t * s) + c.coords * (t * t))
+// The point k/n along a Bézier curve, by its Bernstein form. Every product and sum is arranged so that the curve run the
+// other way gives the same bits: a ring that is turned round is written with its commands turned round.
+
+fn quadratic(a: Point, b: Point, c: Point, k: usize, n: usize) -> Point {
+    let (t, s) = (k as f64 / n as f64, (n - k) as f64 / n as f64);
+    Point::from((a.coords * (s * s) + c.coords * (t * t)) + b.coords * (2.0 * (t * s)))
 }
 
-fn cubic(a: Point, b: Point, c: Point, d: Point, t: f64) -> Point {
-    let s = 1.0 - t;
-    Point::from(
-        a.coords * (s * s * s) + b.coords * (3.0 * t * s * s) + c.coords * (3.0 * t * t * s) + d.coords * (t * t * t),
-    )
+fn cubic(a: Point, b: Point, c: Point, d: Point, k: usize, n: usize) -> Point {
+    let (t, s) = (k as f64 / n as f64, (n - k) as f64 / n as f64);
+    let ts = 3.0 * (t * s);
+    Point::from((a.coords * (s * s * s) + d.coords * (t * t * t)) + (b.coords * (ts * s) + c.coords * (ts * t)))
 }
 
 /// The directions at the ends of a Bézier curve: towards the next control point that is elsewhere.
@@ -272,9 +274,9 @@ mod tests {
         let mut worst = 0.0f64;
         for k in 0..n {
             let (a, b) = (ring.vertices[k].point, ring.vertices[k + 1].point);
-            let at = |t: f64| cubic(p(0.0, 0.0), p(1.0, -3.0), p(4.0, 2.0), p(5.0, -1.0), (k as f64 + t) / n as f64);
-            for t in [0.25, 0.5, 0.75] {
-                worst = worst.max(crate::plane::Segment::line(a, b).nearest(at(t)).distance);
+            for quarter in 1..4 {
+                let at = cubic(p(0.0, 0.0), p(1.0, -3.0), p(4.0, 2.0), p(5.0, -1.0), 4 * k + quarter, 4 * n);
+                worst = worst.max(crate::plane::Segment::line(a, b).nearest(at).distance);
             }
         }
         assert!(worst < 1e-3 && worst > 0.3e-3, "{worst}");

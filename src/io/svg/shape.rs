@@ -32,7 +32,7 @@ pub(super) fn read(node: Node) -> Option<Shape> {
         "path" => Some(read_path(attribute(node, "d").unwrap_or(""))),
         "rect" => {
             let (width, height) = (length("width")?, length("height")?);
-            if !(width > 0.0 && height > 0.0) {
+            if width <= 0.0 || height <= 0.0 {
                 return whole(Outline::default());
             }
             let (rx, ry) = radii(node)?;
@@ -41,14 +41,14 @@ pub(super) fn read(node: Node) -> Option<Shape> {
         }
         "circle" => {
             let r = length("r")?;
-            if !(r > 0.0) {
+            if r <= 0.0 {
                 return whole(Outline::default());
             }
             whole(Outline::ellipse(Point::new(length("cx")?, length("cy")?), r, r))
         }
         "ellipse" => {
             let (rx, ry) = radii(node)?;
-            if !(rx > 0.0 && ry > 0.0) {
+            if rx <= 0.0 || ry <= 0.0 {
                 return whole(Outline::default());
             }
             whole(Outline::ellipse(Point::new(length("cx")?, length("cy")?), rx, ry))
@@ -68,7 +68,12 @@ pub(super) fn read(node: Node) -> Option<Shape> {
 /// An attribute without namespace, or the style property of that name.
 pub(super) fn attribute<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
     let property = node.attribute("style").and_then(|style| {
-        style.split(';').filter_map(|p| p.split_once(':')).filter(|(key, _)| key.trim() == name).map(|(_, v)| v).last()
+        style
+            .split(';')
+            .filter_map(|p| p.split_once(':'))
+            .filter(|(key, _)| key.trim() == name)
+            .map(|(_, v)| v)
+            .next_back()
     });
     property.or_else(|| node.attribute(name)).map(str::trim)
 }

@@ -93,3 +93,12 @@ pub(super) fn area(edges: &[Edge]) -> f64 {
     let doubled: i128 = edges.iter().map(|e| cross(vector(first.start, e.start), vector(first.start, e.end))).sum();
     doubled as f64 / 2.0
 }
+
+/// Length of a loop in cells.
+pub(super) fn length(edges: &[Edge]) -> f64 {
+    let length = |e: &Edge| {
+        let (x, y) = vector(e.start, e.end);
+        (x as f64).hypot(y as f64)
+    };
+    edges.iter().map(length).sum()
+}

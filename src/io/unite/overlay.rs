@@ -96,7 +96,17 @@ pub(super) fn resolve(rings: &[&Ring], rule: Rule, outside: i32, extent: f64) ->
         (left != right).then_some(Edge { start, end, source: e.data.0 })
     });
     let speck = super::SPECK * (extent / grid.cell()) * (extent / grid.cell());
-    let loops = loops::link(edges.collect()).into_iter().filter(|l| loops::area(l).abs() > speck);
+    // Chords of arcs that touch cross, and leave slivers no wider than the chords stray.
+    let sliver = |edges: &[Edge]| {
+        let radius = |e: &Edge| match sources[e.source as usize].start.link {
+            Link::Line => 0.0,
+            Link::Arc(arc) => arc.radius.min(extent),
+        };
+        let width = 2.0 * ARC_CHORDS * edges.iter().map(radius).fold(0.0, f64::max) / grid.cell();
+        loops::length(edges) / 2.0 * width
+    };
+    let is_real = |edges: &Vec<Edge>| loops::area(edges).abs() > speck.max(sliver(edges));
+    let loops = loops::link(edges.collect()).into_iter().filter(is_real);
     restore::rings(loops, &sources, &grid, extent)
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Vertex};
+use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Vector, Vertex};
 
 use super::grid::{Cell, Grid};
 use super::overlay::{ARC_CHORDS, Edge, Source};
@@ -14,6 +14,13 @@ const LINE_CUT: f64 = 16.0;
 
 /// A cut of an arc, solved again, lies within so many times the sampling error of where the chords have it.
 const ARC_CUT: f64 = 100.0;
+
+/// Where links meet at a small angle, chords cross far from where the links do: the distance allowed grows with the
+/// inverse sine of the angle, down to this one, at which two tangent arcs part by the sampling error.
+const SHALLOW: f64 = 0.02;
+
+/// Circles whose distance differs from touching by this, in parts of the radius squared, touch.
+const TANGENT: f64 = 1e-12;
 
 /// Consecutive edges that are part of one link.
 #[derive(Clone, Debug)]
@@ -60,6 +67,11 @@ impl Restorer<'_> {
             let whole = arc.is_none_or(|arc| {
                 starts[k].is_some() && end.is_some_and(|end| self.is_part(&arc, source, start.point, end.point))
             });
+            if arc.is_some() && starts[k].is_some() && end.is_some_and(|end| end.point == start.point) {
+                // Two cuts that are one: chords cross twice where arcs touch.
+                ring.vertices.push(Vertex { link: Link::Line, ..start });
+                continue;
+            }
             if whole {
                 ring.vertices.push(Vertex { link, ..start });
                 continue;
@@ -127,7 +139,9 @@ impl Restorer<'_> {
             (Link::Arc(b), Link::Arc(a)) => (circle_circle(&b, &a, rough), self.arc_cut(&b).max(self.arc_cut(&a))),
         };
         let straight = b.link == Link::Line && a.link == Link::Line;
-        let near = solved.filter(|p| (p - rough).norm() <= limit);
+        let sine = |p: &Point| (tangent(&b, *p).perp(&tangent(&a, *p))).abs();
+        let limit = |p: &Point| if straight { limit } else { limit / sine(p).max(SHALLOW) };
+        let near = solved.filter(|p| (p - rough).norm() <= limit(p));
         near.or(straight.then_some(rough)).map(Vertex::corner)
     }
 
@@ -142,6 +156,19 @@ impl Restorer<'_> {
     }
 }
 
+/// The direction of a link at `p`.
+fn tangent(segment: &Segment, p: Point) -> Vector {
+    match segment.link {
+        Link::Line => segment.start_tangent(),
+        Link::Arc(arc) => arc.tangent_at(p),
+    }
+}
+
+/// The root of what is negative only by rounding where circles touch.
+fn root(x: f64, radius: f64) -> f64 {
+    if x < 0.0 && x >= -TANGENT * radius * radius { 0.0 } else { x.sqrt() }
+}
+
 fn line_line(a: &Segment, b: &Segment) -> Option<Point> {
     let (d, e) = (a.end - a.start, b.end - b.start);
     let det = d.perp(&e);
@@ -153,7 +180,7 @@ fn line_circle(line: &Segment, arc: &Arc, near: Point) -> Option<Point> {
     let direction = (line.end - line.start).try_normalize(0.0)?;
     let foot = line.start + direction * (arc.center - line.start).dot(&direction);
     let height_squared = (foot - arc.center).norm_squared();
-    let half = (arc.radius * arc.radius - height_squared).sqrt();
+    let half = root(arc.radius * arc.radius - height_squared, arc.radius);
     nearest([foot + direction * half, foot - direction * half], near)
 }
 
@@ -161,7 +188,7 @@ fn circle_circle(a: &Arc, b: &Arc, near: Point) -> Option<Point> {
     let between = b.center - a.center;
     let distance = between.norm();
     let along = (distance * distance + a.radius * a.radius - b.radius * b.radius) / (2.0 * distance);
-    let half = (a.radius * a.radius - along * along).sqrt();
+    let half = root(a.radius * a.radius - along * along, a.radius);
     let direction = between / distance;
     let foot = a.center + direction * along;
     let across = crate::plane::left_normal(direction) * half;
