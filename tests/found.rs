@@ -38,7 +38,6 @@ fn obeys(input: &Region, r: f64, operation: Operation) {
     assert_eq!(merged.contradictions, 0);
 }
 
-/// Campaign, shape 27.
 #[test]
 fn two_convex_arcs_and_lines_between_them() {
     let input = Region::new(vec![Ring {
@@ -66,7 +65,6 @@ fn two_convex_arcs_and_lines_between_them() {
     obeys(&input, 8.03139074265821, Operation::Close);
 }
 
-/// Campaign, shape 144.
 #[test]
 fn a_notch_beside_a_concave_arc_opens_without_adding_material() {
     let input = Region::new(vec![Ring {
@@ -89,7 +87,6 @@ fn a_notch_beside_a_concave_arc_opens_without_adding_material() {
     obeys(&input, 0.1476865373612647, Operation::Open);
 }
 
-/// Campaign, shape 174.
 #[test]
 fn keeping_contains_convex_arcs_that_bulge_into_a_pocket() {
     let input = Region::new(vec![Ring {
@@ -117,7 +114,6 @@ fn keeping_contains_convex_arcs_that_bulge_into_a_pocket() {
     obeys(&input, 1.0, Operation::Close);
 }
 
-/// Campaign, shape 352.
 #[test]
 fn two_convex_arcs_meet_in_a_pocket() {
     let input = Region::new(vec![Ring {
@@ -144,7 +140,6 @@ fn two_convex_arcs_meet_in_a_pocket() {
     obeys(&input, 1.0, Operation::Close);
 }
 
-/// Campaign, shape 414.
 #[test]
 fn convex_arcs_far_away() {
     let input = Region::new(vec![Ring {
@@ -173,7 +168,6 @@ fn convex_arcs_far_away() {
     obeys(&input, 2.0, Operation::Close);
 }
 
-/// Campaign, shape 492.
 #[test]
 fn convex_arcs_smaller_than_the_disk() {
     let input = Region::new(vec![Ring {
@@ -202,7 +196,6 @@ fn convex_arcs_smaller_than_the_disk() {
     obeys(&input, 0.0676650330393714, Operation::Close);
 }
 
-/// Campaign, shape 510.
 #[test]
 fn an_opening_beside_one_concave_arc() {
     let input = Region::new(vec![Ring {
@@ -224,7 +217,6 @@ fn an_opening_beside_one_concave_arc() {
     obeys(&input, 17.387229314057535, Operation::Open);
 }
 
-/// Campaign, shape 533.
 #[test]
 fn a_convex_arc_smaller_than_the_disk() {
     let input = Region::new(vec![Ring {
@@ -245,7 +237,6 @@ fn a_convex_arc_smaller_than_the_disk() {
     obeys(&input, 9.520201408024393, Operation::Close);
 }
 
-/// Campaign, shape 554.
 #[test]
 fn a_row_of_convex_arcs() {
     let input = Region::new(vec![Ring {
@@ -328,7 +319,6 @@ fn a_row_of_convex_arcs() {
     obeys(&input, 1.0, Operation::Close);
 }
 
-/// Campaign, shape 584.
 #[test]
 fn a_row_of_concave_arcs_opened() {
     let input = Region::new(vec![Ring {
@@ -373,7 +363,6 @@ fn a_row_of_concave_arcs_opened() {
     }]);
     obeys(&input, 0.00390625, Operation::Open);
 }
-/// Campaign, shape 1716.
 #[test]
 fn concave_arcs_of_a_comb_opened() {
     let input = Region::new(vec![Ring {
@@ -403,7 +392,6 @@ fn concave_arcs_of_a_comb_opened() {
     obeys(&input, 0.04508684734040016, Operation::Open);
 }
 
-/// Campaign, shape 1767.
 #[test]
 fn keeping_contains_a_convex_arc_far_away() {
     let input = Region::new(vec![Ring {
@@ -431,7 +419,6 @@ fn keeping_contains_a_convex_arc_far_away() {
     obeys(&input, 0.012154784582925371, Operation::Close);
 }
 
-/// Campaign, shape 3782.
 #[test]
 fn an_opening_is_not_filled_too_deep_beside_an_arc() {
     let input = Region::new(vec![Ring {
@@ -455,7 +442,6 @@ fn an_opening_is_not_filled_too_deep_beside_an_arc() {
     obeys(&input, 2.427954507829296, Operation::Open);
 }
 
-/// Campaign, shape 4403.
 #[test]
 fn a_triangular_plate_with_an_arc_in_its_hole_opened() {
     let input = Region::new(vec![
@@ -484,7 +470,6 @@ fn a_triangular_plate_with_an_arc_in_its_hole_opened() {
     obeys(&input, 2.602895057403798, Operation::Open);
 }
 
-/// Campaign, shape 4846.
 #[test]
 fn teeth_with_concave_arcs_that_vanish() {
     let input = Region::new(vec![Ring {
@@ -500,7 +485,6 @@ fn teeth_with_concave_arcs_that_vanish() {
     obeys(&input, 0.010462936356193612, Operation::Open);
 }
 
-/// Campaign, shape 4954.
 #[test]
 fn a_thin_part_with_concave_arcs_vanishes() {
     let input = Region::new(vec![Ring {
@@ -551,4 +535,418 @@ fn keeping_opens_a_fold_at_the_end_of_a_wedge_without_adding_to_it() {
         ],
     }]);
     obeys(&input, 0.6586619477807863, Operation::Open);
+}
+#[test]
+fn a_star_with_bulges() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(
+                47.31020819673824,
+                69.95448545793265,
+                158.7115407652649,
+                145.8602072713267,
+                134.80332155424009,
+                Turn::Right,
+            ),
+            arc(
+                24.736230228777696,
+                160.77837299998325,
+                6.479404623017996,
+                85.54266476266613,
+                77.41914152953278,
+                Turn::Left,
+            ),
+            arc(
+                -45.486103965271575,
+                142.93002741621757,
+                -293.7148374493554,
+                354.1335643503082,
+                325.9209077990887,
+                Turn::Right,
+            ),
+            arc(
+                -114.03557161235612,
+                82.2148272819351,
+                -197.27603376344422,
+                103.74592614279501,
+                85.98001370831977,
+                Turn::Right,
+            ),
+            arc(
+                -163.1843931990208,
+                24.813532280015085,
+                -298.74519444363807,
+                -95.22045937111866,
+                181.0659824091402,
+                Turn::Right,
+            ),
+            arc(
+                -130.70007067125508,
+                -27.798457308649805,
+                -241.48514194854775,
+                -153.34570620551753,
+                167.43788019288488,
+                Turn::Right,
+            ),
+            line(-90.54922517035739, -80.86265473957783),
+        ],
+    }]);
+    obeys(&input, 53.54130408199259, Operation::Open);
+}
+
+#[test]
+fn bulges_far_away() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(
+                2097156.411300146,
+                -2097148.069896997,
+                2097152.5902766483,
+                -2097152.8922636267,
+                6.152677505095871,
+                Turn::Left,
+            ),
+            arc(
+                2097152.7830264987,
+                -2097146.742606077,
+                2097150.7943337609,
+                -2097146.0577050531,
+                2.103327891182335,
+                Turn::Right,
+            ),
+            arc(
+                2097150.5481891085,
+                -2097148.1465805946,
+                2097147.8635693036,
+                -2097149.9809574827,
+                3.2514799804616548,
+                Turn::Left,
+            ),
+            line(2097147.3617524307, -2097146.768434815),
+            line(2097148.3414142134, -2097151.0675125145),
+            arc(
+                2097148.3197457073,
+                -2097154.0006637666,
+                2097148.2850078915,
+                -2097155.7130150604,
+                1.7127036138590253,
+                Turn::Right,
+            ),
+            arc(
+                2097149.865279958,
+                -2097155.052641026,
+                2097152.182893515,
+                -2097153.7355141733,
+                2.6657373740860737,
+                Turn::Left,
+            ),
+            arc(
+                2097152.544920197,
+                -2097156.376554201,
+                2097151.3250370398,
+                -2097154.9051719983,
+                1.911303351933724,
+                Turn::Left,
+            ),
+            line(2097152.9144717446, -2097153.8436740837),
+        ],
+    }]);
+    obeys(&input, 2.6825371742575688, Operation::Open);
+}
+
+#[test]
+fn bulges_of_a_small_part() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(
+                67109079.6636563,
+                -67108841.450740434,
+                67109098.63913299,
+                -67108734.776351914,
+                108.34894499552614,
+                Turn::Right,
+            ),
+            arc(
+                67108993.25464672,
+                -67108759.94784242,
+                67109069.78559431,
+                -67109174.64714687,
+                421.70190780072863,
+                Turn::Left,
+            ),
+            arc(
+                67108913.63745514,
+                -67108782.919872254,
+                67108984.97436354,
+                -67108655.869473726,
+                145.70778382353737,
+                Turn::Right,
+            ),
+            arc(
+                67108839.274459295,
+                -67108657.384785704,
+                67108761.08768486,
+                -67108545.32175171,
+                136.64294817052198,
+                Turn::Right,
+            ),
+            arc(
+                67108745.235313885,
+                -67108681.04204355,
+                67108874.0934849,
+                -67108743.616123475,
+                143.2478401733715,
+                Turn::Left,
+            ),
+            line(67108731.97212681, -67108761.5455209),
+            arc(
+                67109046.97510457,
+                -67108950.71022388,
+                67109121.00478919,
+                -67108913.33896086,
+                82.92771253506619,
+                Turn::Right,
+            ),
+        ],
+    }]);
+    obeys(&input, 55.81144289772101, Operation::Open);
+}
+
+#[test]
+fn bulges_closed_before() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            line(-91.56244948817987, 74.69898175807339),
+            arc(
+                -209.86231686809853,
+                -9.915852850498801,
+                912.753929290162,
+                250.82476849842254,
+                1152.4985500033767,
+                Turn::Left,
+            ),
+            line(-187.5408536589169, -92.11006259186661),
+            arc(
+                6.217732039467371,
+                -146.22941519847143,
+                -48.8996150774514,
+                -49.285405470405095,
+                111.51709723339435,
+                Turn::Left,
+            ),
+            arc(
+                43.70363314193298,
+                -111.41994815465934,
+                56.77371745203187,
+                -120.18965901327522,
+                15.739597593865554,
+                Turn::Right,
+            ),
+            arc(
+                52.895697331949265,
+                -104.93528612006676,
+                113.62888596930486,
+                -343.8321143418008,
+                246.49587164182952,
+                Turn::Right,
+            ),
+            arc(
+                131.86331994741747,
+                -98.01161040861957,
+                368.41578576515815,
+                -79.29052832755306,
+                237.29211533200888,
+                Turn::Right,
+            ),
+            arc(
+                134.99018605403663,
+                -36.6286320002371,
+                150.47331747801698,
+                -39.458397666254506,
+                15.739597593865554,
+                Turn::Right,
+            ),
+            line(137.04118020109053, -31.253970776421095),
+        ],
+    }]);
+    obeys(&input, 88.21455013093696, Operation::Open);
+}
+
+#[test]
+fn bulges_closed_before_that_vanish() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(
+                -12.143750942237789,
+                -18.525705698314184,
+                -21.650323744857893,
+                -30.19100520241369,
+                15.048393235553771,
+                Turn::Right,
+            ),
+            arc(
+                -6.65134395817881,
+                -31.40950605618969,
+                14.704174971176739,
+                -18.470649850392093,
+                24.969425076608594,
+                Turn::Left,
+            ),
+            arc(
+                15.060823386417383,
+                -43.43752772016741,
+                34.92250312559855,
+                -59.61738586489216,
+                25.61784791205568,
+                Turn::Right,
+            ),
+            arc(
+                30.61147580442359,
+                -34.36487757202551,
+                71.0752697474638,
+                4.656272266225454,
+                56.2135993774109,
+                Turn::Right,
+            ),
+            arc(
+                17.961637672087065,
+                -13.753259034857745,
+                26.73963793015927,
+                -10.710746892540655,
+                9.290326617878545,
+                Turn::Right,
+            ),
+            line(20.888089049836445, -3.4948239184468113),
+        ],
+    }]);
+    obeys(&input, 14.366110909447523, Operation::Open);
+}
+
+#[test]
+fn keeping_bulges() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(
+                4.275582079954531,
+                1.6544984800216864,
+                -9.668393751367653,
+                -5.387918724181937,
+                15.621462865639709,
+                Turn::Left,
+            ),
+            arc(
+                2.424543899309506,
+                4.501012514298548,
+                4.189631761496757,
+                26.836236293385028,
+                22.40486010719797,
+                Turn::Right,
+            ),
+            arc(
+                -1.4229093215165878,
+                5.145751305386297,
+                -7.872883162639633,
+                2.5985125388520474,
+                6.934737766124001,
+                Turn::Right,
+            ),
+            arc(
+                -1.2451408550149894,
+                0.5580175526712774,
+                3.945150975445879,
+                -22.09320038737118,
+                23.238261627166736,
+                Turn::Left,
+            ),
+            arc(
+                -5.150758511755117,
+                -0.7090652855416697,
+                -2.0888617667161054,
+                1.9793055399700603,
+                4.074622604946759,
+                Turn::Left,
+            ),
+            arc(
+                -0.7834875440947554,
+                -1.8805581249355827,
+                0.36491467643764025,
+                -2.4018288244539403,
+                1.2611704096989014,
+                Turn::Right,
+            ),
+            arc(
+                0.38895705581730544,
+                -1.1408876020752525,
+                0.6936978434317111,
+                -0.2760321798552593,
+                0.9169742902498255,
+                Turn::Left,
+            ),
+            arc(
+                1.2897651183559133,
+                -0.9728432394285174,
+                0.35018603499938017,
+                3.1052044709234083,
+                4.1848873320303,
+                Turn::Left,
+            ),
+        ],
+    }]);
+    obeys(&input, 1.3682653687119588, Operation::Open);
+}
+
+#[test]
+fn convex_arcs_below_the_radius() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(
+                0.04148054059809157,
+                0.21501644224783417,
+                0.04948813101605723,
+                0.17482474947918358,
+                0.04098162602815433,
+                Turn::Left,
+            ),
+            line(0.008845478511304582, 0.16956466684775867),
+            arc(
+                -0.02373059776513704,
+                0.16422611162846185,
+                -0.01710295232524173,
+                0.12378395555544158,
+                0.04098162602815433,
+                Turn::Left,
+            ),
+            line(-0.057545108398262025, 0.11715631011554627),
+            line(-0.04284703825283421, 0.007061612804336221),
+        ],
+    }]);
+    obeys(&input, 0.0676650330393714, Operation::Close);
+}
+
+#[test]
+fn keeping_a_coast_far_away() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(
+                67107949.58635424,
+                -67109372.06904219,
+                67108017.04812663,
+                -67109392.72191913,
+                70.55233561106056,
+                Turn::Left,
+            ),
+            line(67107949.11728795, -67109411.77534972),
+            arc(
+                67107914.61282493,
+                -67109734.8595357,
+                67107982.13900183,
+                -67109714.4182174,
+                70.55233561106056,
+                Turn::Left,
+            ),
+            line(67107978.96826144, -67109784.89926781),
+            line(67108068.361288674, -67109769.65466511),
+        ],
+    }]);
+    obeys(&input, 64.0, Operation::Open);
 }
