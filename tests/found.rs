@@ -950,3 +950,16 @@ fn keeping_a_coast_far_away() {
     }]);
     obeys(&input, 64.0, Operation::Open);
 }
+
+/// Found by fuzzing: a ring without vertices is no reason to panic.
+#[test]
+fn a_ring_without_vertices_is_nothing() {
+    let square = Ring { vertices: vec![line(0.0, 0.0), line(4.0, 0.0), line(4.0, 4.0), line(0.0, 4.0)] };
+    for rings in [vec![Ring::default()], vec![square, Ring::default()]] {
+        let count = rings.iter().filter(|r| !r.is_empty()).count();
+        for topology in [Topology::Merge, Topology::Keep] {
+            let closed = rolling::close(&Region::new(rings.clone()), laws::radius(1.0), topology).region;
+            assert_eq!(closed.rings.iter().filter(|r| !r.is_empty()).count(), count);
+        }
+    }
+}

@@ -17,7 +17,8 @@ fuzz_target!(|bytes: &[u8]| {
     let Ok(radius) = Radius::new(0.02 * drawing.region.bounds().diagonal()) else { return };
     for topology in [Topology::Merge, Topology::Keep] {
         let closed = rolling::close(&drawing.region, radius, topology).region;
-        let finite = closed.rings.iter().flat_map(|r| &r.vertices).all(|v| v.point.x.is_finite() && v.point.y.is_finite());
+        let finite =
+            closed.rings.iter().flat_map(|r| &r.vertices).all(|v| v.point.x.is_finite() && v.point.y.is_finite());
         assert!(finite, "{topology:?}: a coordinate is not finite");
         let _ = svg::write(&drawing, &closed);
     }
