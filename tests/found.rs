@@ -963,3 +963,15 @@ fn a_ring_without_vertices_is_nothing() {
         }
     }
 }
+
+/// Found by fuzzing: a ring of no area, one vertex twice.
+#[test]
+fn a_flat_ring_gives_numbers() {
+    let flat = Region::new(vec![Ring { vertices: vec![line(37.0, 188.0), line(188.0, 188.0), line(188.0, 188.0)] }]);
+    for topology in [Topology::Merge, Topology::Keep] {
+        for run in [rolling::close, rolling::open] {
+            let result = run(&flat, laws::radius(30.5), topology).region;
+            assert!(laws::is_finite(&result), "{topology:?}: {result:?}");
+        }
+    }
+}
