@@ -64,7 +64,7 @@ pub struct ProgramStatistics {
     pub rapid_length_mm: f64,
     /// How far below the top of the stock the tool goes, in millimetres.
     pub depth_mm: f64,
-    /// Levels at which the tool moves in XY below the top of the stock.
+    /// Levels below the top of the stock along which the tool cuts.
     pub passes: usize,
     /// Straight motions at a feed.
     pub lines: usize,
@@ -77,10 +77,14 @@ pub struct ProgramStatistics {
 /// Levels closer than this are one pass, in millimetres.
 const SAME_LEVEL: f64 = 0.01;
 
+/// A level with less of the way than this share of the longest one's is no pass: rounding makes small parts of a ramp level.
+const LEAST_PASS: f64 = 0.01;
+
 /// The lengths and counts of `program`.
 pub fn statistics(program: &Program, stock_top: f64) -> ProgramStatistics {
     let mut s = ProgramStatistics::default();
-    let mut levels: Vec<f64> = Vec::new();
+    // Heights and the way along them.
+    let mut levels: Vec<(f64, f64)> = Vec::new();
     for motion in &program.motions {
         let length = motion.length();
         match motion.kind {
@@ -98,12 +102,17 @@ pub fn statistics(program: &Program, stock_top: f64) -> ProgramStatistics {
         }
         let is_level = motion.from.z == motion.to.z && motion.trace().next().is_some();
         if is_level && motion.is_feed() && motion.is_in_stock(stock_top) {
-            levels.push(motion.to.z);
+            levels.push((motion.to.z, length));
         }
     }
-    levels.sort_by(f64::total_cmp);
-    levels.dedup_by(|a, b| (*a - *b).abs() < SAME_LEVEL);
-    s.passes = levels.len();
+    levels.sort_by(|a, b| a.0.total_cmp(&b.0));
+    levels.dedup_by(|a, b| {
+        let same = (a.0 - b.0).abs() < SAME_LEVEL;
+        b.1 += if same { a.1 } else { 0.0 };
+        same
+    });
+    let longest = levels.iter().map(|l| l.1).fold(0.0, f64::max);
+    s.passes = levels.iter().filter(|l| l.1 > LEAST_PASS * longest).count();
     s
 }
 
@@ -154,6 +163,15 @@ mod tests {
         assert_eq!(found.time.dwell_seconds, 2.0);
         let json = serde_json::to_value(&found).unwrap();
         assert_eq!(json["statistics"]["depth_mm"], 2.0);
+    }
+
+    #[test]
+    fn level_pieces_of_a_ramp_are_no_passes() {
+        // The second motion is too short to fall by a last decimal.
+        let ramped =
+            "G21 G90 G17 G94\nG0 Z5\nG1 Z0 F100\nG1 X5 Z-0.5\nG1 X5.004\nG1 X10 Z-1\nG1 Y10\nG1 X0\nG1 Y0\nG1 X10\n";
+        let s = statistics(&read(ramped).unwrap(), 0.0);
+        assert_eq!((s.passes, s.depth_mm), (1, 1.0));
     }
 
     #[test]

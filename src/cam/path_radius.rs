@@ -46,25 +46,34 @@ const SMOOTH_TURN: f64 = 2e-3;
 /// Elements shorter than this have no direction that survives rounding, in millimetres.
 const SHORTEST: f64 = 3.0 * ROUNDING;
 
+/// The most that an arc that is written as a line may bulge, in millimetres: a tenth of the fourth decimal, with room. An arc
+/// of length l and sagitta s turns by 8 s / l.
+const FLAT_SAGITTA: f64 = 2e-5;
+
 /// The tightest turns of `program` around what must remain.
 pub fn tightest_turns(program: &Program, region: &Region, remainder: Remainder, stock_top: f64) -> TightestTurns {
     let solid = Solid::new(region, remainder);
     let mut result = TightestTurns::default();
     let mut last: Option<Segment> = None;
+    // The way along elements that were too short to have a direction.
+    let mut skipped = 0.0;
     for motion in &program.motions {
         if !motion.is_feed() || !motion.is_in_stock(stock_top) || motion.trace().next().is_none() {
             // A plunge, a rapid and a dwell stop the tool: what comes after is a new path.
             last = None;
+            skipped = 0.0;
             continue;
         }
         for element in motion.trace() {
             // Too short to have a direction: the joint is between its neighbours.
             if element.length() < SHORTEST {
+                skipped += element.length();
                 continue;
             }
             if let Some(before) = last {
-                result.add_joint(&before, &element, motion, &solid);
+                result.add_joint(&before, &element, skipped, motion, &solid);
             }
+            skipped = 0.0;
             result.add_arc(&element, motion, &solid);
             last = Some(element);
         }
@@ -89,10 +98,12 @@ impl TightestTurns {
         self.add_radius(arc.radius, arc.center - middle, middle, solid);
     }
 
-    fn add_joint(&mut self, before: &Segment, after: &Segment, motion: &Motion, solid: &Solid) {
+    /// Takes the turn between two elements with a way of `skipped` between them.
+    fn add_joint(&mut self, before: &Segment, after: &Segment, skipped: f64, motion: &Motion, solid: &Solid) {
         let turn = turn_angle(before.end_tangent(), after.start_tangent());
         let chord = |s: &Segment| (s.end - s.start).norm().max(SHORTEST);
-        let noise = SMOOTH_TURN + ROUNDING * (1.0 / chord(before) + 1.0 / chord(after));
+        let flattened = if skipped > 0.0 { 8.0 * FLAT_SAGITTA / skipped } else { 0.0 };
+        let noise = SMOOTH_TURN + ROUNDING * (1.0 / chord(before) + 1.0 / chord(after)) + flattened;
         if turn.abs() <= noise {
             return;
         }
@@ -166,6 +177,17 @@ mod tests {
         let arcs = of(&arcs);
         assert_eq!(arcs.corners, 0, "{arcs:?}");
         assert!((arcs.smallest_mm.unwrap() - 12.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn an_arc_of_three_thousandths_written_as_a_line_is_no_corner() {
+        // From a coast: a third of a degree at a radius of 0.56.
+        let coast = "G1 X51.12 Y60.65\nG1 X51.0817 Y60.3272\nG1 X51.0813 Y60.3239\nG1 X50.6954 Y57.292";
+        // The way there makes one.
+        assert_eq!(of(coast).corners, 1);
+        // Twenty degrees in the same way are one.
+        let corner = "G1 X51.12 Y60.65\nG1 X51.0817 Y60.3272\nG1 X51.0813 Y60.3239\nG1 X49.7 Y57.5";
+        assert_eq!(of(corner).corners, 2);
     }
 
     #[test]

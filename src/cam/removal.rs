@@ -14,7 +14,7 @@ use i_overlay::float::single::SingleFloatOverlay;
 use super::motion::{MotionKind, Program};
 use super::solid::{Remainder, Solid};
 use super::stroke::{Polygon, Stroke, joined_lines};
-use crate::plane::{Bounds, Point, Region, Segment};
+use crate::plane::{Bounds, Point, Region, Ring, Segment, inscribed_circle};
 
 /// Thickness of the skin in millimetres: a few times what three decimals of a millimetre round away.
 const SKIN: f64 = 0.004;
@@ -177,7 +177,11 @@ fn place(shape: &[Polygon], solid: &Solid) -> Option<UncutPlace> {
     }
     // Surrounded by the part, as an unreached hole is, a piece is thickest somewhere inside.
     if contact > MOSTLY * perimeter {
-        deepest = deepest_inside(&outlines, solid, deepest);
+        let circle =
+            inscribed_circle(&Region::new(outlines.iter().map(|r| Ring::polygon(r.iter().copied())).collect()));
+        if circle.radius + SKIN > deepest.0 {
+            deepest = (circle.radius + SKIN, circle.center);
+        }
     }
     let (depth, at) = deepest;
     let area = 0.5 * doubled_area + SKIN * contact;
@@ -193,42 +197,10 @@ fn place(shape: &[Polygon], solid: &Solid) -> Option<UncutPlace> {
 /// A piece is surrounded by the part if this much of its outline is.
 const MOSTLY: f64 = 0.75;
 
-/// The point inside of `outlines` that is farthest from the part, found by halving squares that can still hold it.
-fn deepest_inside(outlines: &[Vec<Point>], solid: &Solid, mut best: (f64, Point)) -> (f64, Point) {
-    /// Found to this fraction of the piece's size.
-    const PRECISION: f64 = 0.01;
-    const MOST_SQUARES: usize = 2000;
-    let bounds = Bounds::of_points(outlines.iter().flatten().copied());
-    let contains = |p: Point| outlines.iter().map(|ring| winding(ring, p)).sum::<i32>() != 0;
-    let half = 0.5 * bounds.width().max(bounds.height());
-    let mut open = vec![(bounds.center(), half)];
-    let mut count = 0;
-    while let Some((center, half)) = open.pop() {
-        count += 1;
-        let distance = solid.boundary.distance(center);
-        if distance > best.0 && contains(center) {
-            best = (distance, center);
-        }
-        let corner = half * std::f64::consts::SQRT_2;
-        if count > MOST_SQUARES || distance + corner <= best.0 + PRECISION * bounds.diagonal() {
-            continue;
-        }
-        let q = 0.5 * half;
-        open.extend([(-q, -q), (q, -q), (-q, q), (q, q)].map(|(x, y)| (center + crate::plane::Vector::new(x, y), q)));
-    }
-    best
-}
-
-fn winding(ring: &[Point], p: Point) -> i32 {
-    let n = ring.len();
-    (0..n).map(|i| crate::plane::Segment::line(ring[i], ring[(i + 1) % n]).ray_crossings(p)).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::gcode::read;
-    use crate::plane::Ring;
     use std::f64::consts::PI;
 
     const HEAD: &str = "G21 G90 G17 G94\nG0 Z5\nM3 S1000\nG4 P1\nF500\n";
@@ -291,6 +263,16 @@ mod tests {
         assert!(found.is_cut_free && found.places.len() == 1, "{found:?}");
         assert!((found.area_mm2 - PI).abs() < 0.005, "{}", found.area_mm2);
         assert!((found.places[0].depth_mm - 1.0).abs() < 0.03, "{:?}", found.places[0].depth_mm);
+    }
+
+    #[test]
+    fn an_unreached_triangle_is_as_deep_as_its_incircle() {
+        let mut part = Region::new(vec![polygon(&[[0.0, 0.0], [60.0, 0.0], [60.0, 30.0], [0.0, 30.0]])]);
+        part.rings.push(polygon(&[[20.0, 20.0], [24.0, 20.0], [22.0, 14.0]]));
+        let path = "G0 X-2 Y-2\nG1 Z-1\nG1 X62\nG1 Y32\nG1 X-2\nG1 Y-2\n";
+        let found = left(path, &part, Remainder::Inside, 2.0);
+        assert!(found.places.len() == 1 && (found.area_mm2 - 12.0).abs() < 0.01, "{found:?}");
+        assert!((found.places[0].depth_mm - 1.4415).abs() < 0.03, "{:?}", found.places[0].depth_mm);
     }
 
     #[test]

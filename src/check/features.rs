@@ -1,14 +1,16 @@
 //! What a closing fills, or an opening removes, beyond rounding corners.
 
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BTreeSet;
 
 use super::Place;
 use super::moved::{Contact, Piece, pieces};
-use crate::plane::{BoundaryIndex, Point, Region, Vector};
+use crate::plane::{InscribedCircle, Point, Region, inscribed_circle};
 use crate::units::Radius;
 
-/// An inlet shallower than this over the radius is texture, not a feature.
-pub const SHALLOWEST_INLET: f64 = 0.5;
+/// A filling shallower than this over the radius is a fillet, not a feature. Shallow is measured from the new boundary, which
+/// the disk still reaches: a right-angled corner keeps a fillet of 0.41, the root of a gap that the disk nearly fits into
+/// less.
+pub const SHALLOWEST_FILLING: f64 = 0.5;
 
 /// An inlet at least this deep over the width of its mouth is a slot that vanished. The fillet of a corner of 53 degrees or more is
 /// shallower.
@@ -17,12 +19,6 @@ pub const SLOT_DEPTH: f64 = 1.0;
 /// An inlet that fills at least this fraction of the rectangle of its mouth and depth is a slot that vanished, however
 /// wide: a corner of two straight walls fills half of it.
 pub const SLOT_FULLNESS: f64 = 0.75;
-
-/// Accuracy of inscribed circles, over the size of the piece.
-const INSCRIBED_ACCURACY: f64 = 0.01;
-
-/// The most cells that the search for an inscribed circle looks at.
-const INSCRIBED_CELLS: usize = 400;
 
 /// Something of the part that is gone. Lengths are in the units of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -52,6 +48,8 @@ pub enum LostFeature {
         place: Place,
         /// The width of its mouth; or the diameter of that circle, where the filling is open on several sides.
         width: f64,
+        /// The greatest distance of the old boundary from the new one.
+        depth: f64,
         /// Area of the filling.
         area: f64,
     },
@@ -70,6 +68,8 @@ pub enum LostFeature {
         place: Place,
         /// The width of its root; or the diameter of that circle, where it hung on several sides.
         width: f64,
+        /// The greatest distance of the old boundary from the new one.
+        depth: f64,
         /// Area of what was removed.
         area: f64,
     },
@@ -78,7 +78,7 @@ pub enum LostFeature {
 /// What `result`, a closing or opening of `part` by a disk of `radius`, has lost; in the order of the pieces from below.
 ///
 /// A closing has the larger area, so which of the two it is need not be said. A fillet in a corner is no loss. A filled
-/// inlet is one if it is deeper than [`SHALLOWEST_INLET`] and either [deeper than wide](SLOT_DEPTH) or
+/// inlet is one if the filling is deeper than [`SHALLOWEST_FILLING`] and the inlet either [deeper than wide](SLOT_DEPTH) or
 /// [box-like](SLOT_FULLNESS). Accurate to about a thousandth of the radius, to which arcs are flattened.
 pub fn lost_features(part: &Region, result: &Region, radius: Radius) -> Vec<LostFeature> {
     let r = radius.get();
@@ -96,16 +96,17 @@ fn classify(piece: &Piece, components: &Components, is_closing: bool, r: f64, fo
     let whole_ring = piece.contacts.iter().any(|c| c.is_whole_ring && components.is_hole[c.ring] == is_closing);
     let joined: BTreeSet<usize> = piece.contacts.iter().map(|c| components.of_ring[c.ring]).collect();
     let merges = is_closing && joined.len() > 1;
-    let vanished = piece.new_stretches == 0 && whole_ring;
+    let vanished = piece.new_stretches.is_empty() && whole_ring;
+    let depth = piece.depth();
     let (is_gap, mouth) = match piece.contacts.as_slice() {
-        [contact] => (is_slot(contact, r), Some(contact.mouth())),
+        [contact] => (depth >= SHALLOWEST_FILLING * r && is_slot(contact), Some(contact.mouth())),
         contacts => (contacts.len() > 1, None),
     };
     if !(vanished || merges || is_gap) {
         return;
     }
-    let (center, half) = inscribed_circle(&piece.outline);
-    let (place, width, area) = (Place::from(center), 2.0 * half, piece.outline.area());
+    let InscribedCircle { center, radius } = inscribed_circle(&piece.outline);
+    let (place, width, area) = (Place::from(center), 2.0 * radius, piece.outline.area());
     if vanished {
         found.push(if is_closing {
             LostFeature::HoleFilled { center: place, diameter: width, area }
@@ -118,9 +119,9 @@ fn classify(piece: &Piece, components: &Components, is_closing: bool, r: f64, fo
     } else if is_gap && !vanished {
         let width = mouth.unwrap_or(width);
         found.push(if is_closing {
-            LostFeature::GapFilled { place, width, area }
+            LostFeature::GapFilled { place, width, depth, area }
         } else {
-            LostFeature::NeckCut { place, width, area }
+            LostFeature::NeckCut { place, width, depth, area }
         });
     }
 }
@@ -136,15 +137,12 @@ impl Contact {
 }
 
 /// Whether an inlet that was filled down to its bottom is more than a corner.
-fn is_slot(contact: &Contact, r: f64) -> bool {
+fn is_slot(contact: &Contact) -> bool {
     let (Some(&a), Some(&b)) = (contact.points.first(), contact.points.last()) else { return false };
     let chord = b - a;
     let mouth = chord.norm();
     let height = |p: &Point| if mouth > 0.0 { (chord.perp(&(p - a)) / mouth).abs() } else { (p - a).norm() };
     let depth = contact.points.iter().map(height).fold(0.0, f64::max);
-    if depth < SHALLOWEST_INLET * r {
-        return false;
-    }
     let doubled: f64 = contact.points.windows(2).map(|w| (w[0] - a).perp(&(w[1] - a))).sum();
     depth >= SLOT_DEPTH * mouth || 0.5 * doubled.abs() >= SLOT_FULLNESS * mouth * depth
 }
@@ -171,65 +169,4 @@ impl Components {
         };
         Components { of_ring: (0..areas.len()).map(owner).collect(), is_hole: areas.iter().map(|a| *a < 0.0).collect() }
     }
-}
-
-/// A square of the search for the inscribed circle, ordered by the largest circle that it could hold.
-struct Cell {
-    best_possible: f64,
-    center: Point,
-    half: f64,
-}
-
-impl PartialEq for Cell {
-    fn eq(&self, other: &Cell) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-impl Eq for Cell {}
-impl PartialOrd for Cell {
-    fn partial_cmp(&self, other: &Cell) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Cell {
-    fn cmp(&self, other: &Cell) -> std::cmp::Ordering {
-        self.best_possible.total_cmp(&other.best_possible)
-    }
-}
-
-/// The largest circle in a polygon, by dividing squares that could still hold a larger one.
-fn inscribed_circle(outline: &Region) -> (Point, f64) {
-    let index = BoundaryIndex::new(outline);
-    let signed = |p: Point| index.distance(p) * if outline.contains(p) { 1.0 } else { -1.0 };
-    let bounds = outline.bounds();
-    let half = 0.5 * bounds.width().min(bounds.height());
-    let mut best = (bounds.center(), signed(bounds.center()));
-    if half <= 0.0 {
-        return (best.0, best.1.max(0.0));
-    }
-    let mut cells = BinaryHeap::new();
-    let add = |center: Point, half: f64, cells: &mut BinaryHeap<Cell>, best: &mut (Point, f64)| {
-        let d = signed(center);
-        if d > best.1 {
-            *best = (center, d);
-        }
-        cells.push(Cell { best_possible: d + half * std::f64::consts::SQRT_2, center, half });
-    };
-    // At most a few dozen squares across a long piece: larger ones where it is longer.
-    let half = half.max(bounds.diagonal() / 48.0);
-    let (columns, rows) =
-        ((bounds.width() / (2.0 * half)).ceil() as usize, (bounds.height() / (2.0 * half)).ceil() as usize);
-    for k in 0..columns.max(1) * rows.max(1) {
-        let step = Vector::new((k % columns.max(1)) as f64, (k / columns.max(1)) as f64) * (2.0 * half);
-        add(bounds.min + Vector::new(half, half) + step, half, &mut cells, &mut best);
-    }
-    let accuracy = INSCRIBED_ACCURACY * half;
-    for _ in 0..INSCRIBED_CELLS {
-        let Some(cell) = cells.pop().filter(|c| c.best_possible > best.1 + accuracy) else { break };
-        let h = 0.5 * cell.half;
-        for (sx, sy) in [(-h, -h), (h, -h), (-h, h), (h, h)] {
-            add(cell.center + Vector::new(sx, sy), h, &mut cells, &mut best);
-        }
-    }
-    (best.0, best.1.max(0.0))
 }

@@ -10,7 +10,7 @@ mod moved;
 mod report;
 
 pub use compare::compare;
-pub use features::{LostFeature, SHALLOWEST_INLET, SLOT_DEPTH, SLOT_FULLNESS, lost_features};
+pub use features::{LostFeature, SHALLOWEST_FILLING, SLOT_DEPTH, SLOT_FULLNESS, lost_features};
 pub use report::{Area, Containment, Distance, Kept, Report, SmallestRadius, Topology};
 
 /// A place for reports: x and y in the units of the drawing.

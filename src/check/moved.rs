@@ -23,8 +23,8 @@ pub(super) struct Piece {
     pub(super) outline: Region,
     /// Stretches of its outline that were the part's boundary.
     pub(super) contacts: Vec<Contact>,
-    /// Stretches of its outline that are new boundary.
-    pub(super) new_stretches: usize,
+    /// Stretches of its outline that are new boundary, each with its points in order.
+    pub(super) new_stretches: Vec<Vec<Point>>,
 }
 
 /// A stretch of a piece's outline that was the part's boundary.
@@ -38,9 +38,21 @@ pub(super) struct Contact {
 }
 
 impl Piece {
+    /// The greatest distance of what was the part's boundary from the new one: how deep a filling is. Zero without new
+    /// boundary.
+    pub(super) fn depth(&self) -> f64 {
+        let new: Vec<Segment> =
+            self.new_stretches.iter().flat_map(|s| s.windows(2)).map(|w| Segment::line(w[0], w[1])).collect();
+        if new.is_empty() {
+            return 0.0;
+        }
+        let index = BoundaryIndex::of_segments(new);
+        self.contacts.iter().flat_map(|c| &c.points).map(|p| index.distance(*p)).fold(0.0, f64::max)
+    }
+
     /// Whether the piece changes the topology: an ordinary fillet is glued to the part along one stretch and has one free side.
     pub(super) fn is_topological(&self) -> bool {
-        self.contacts.len() != 1 || self.new_stretches != 1
+        self.contacts.len() != 1 || self.new_stretches.len() != 1
     }
 }
 
@@ -76,14 +88,14 @@ pub(super) fn pieces(part: &Region, result: &Region, larger: &Region, smaller: &
     let mut found = Vec::new();
     let outlines = shapes.iter().flat_map(|s| without_slivers(s, &part_index, &result_index, radius));
     for outline in outlines {
-        let mut piece = Piece { outline, contacts: Vec::new(), new_stretches: 0 };
+        let mut piece = Piece { outline, contacts: Vec::new(), new_stretches: Vec::new() };
         for ring in &piece.outline.rings {
             let runs = runs(ring, &part_index, &result_index, &ring_of, radius);
             let is_whole_ring = runs.len() == 1;
             for run in runs {
                 match run.part_ring {
                     Some(ring) => piece.contacts.push(Contact { ring, is_whole_ring, points: run.points }),
-                    None => piece.new_stretches += 1,
+                    None => piece.new_stretches.push(run.points),
                 }
             }
         }

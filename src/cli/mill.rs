@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Context as _, Result, anyhow, bail};
 use clap::{Args, ValueEnum};
 
 use super::check::FormatArg;
@@ -11,8 +11,8 @@ use super::input::ReadArgs;
 use super::report::{MillReport, Verdict};
 use super::{ExitStatus, input, output};
 use crate::cam::{
-    self, Certificate, CertifyOptions, Direction, Entry, Job, JobFile, Machine, Origin, Program, Remainder, Side,
-    Toolpath, TypedPathRadius,
+    self, Certificate, CertifyOptions, Direction, Entry, Job, JobFile, Machine, OffsetError, Origin, PlanError,
+    Program, Remainder, Side, Toolpath, TypedPathRadius,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::gcode::{self, Arcs, Controller, Dialect, Finding, LintOptions, Units, WriteOptions};
@@ -56,19 +56,19 @@ pub(super) struct MillArgs {
 #[command(next_help_heading = "Cutting")]
 struct CutArgs {
     /// Diameter of the tool [default: 3.175mm]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     tool_diameter: Option<Length>,
     /// Depth of the cut [default: 3mm]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     depth: Option<Length>,
     /// Most that a pass may go deeper than the one before [default: 1mm]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     depth_per_pass: Option<Length>,
     /// Feed along the path [default: 1000mm/min]
-    #[arg(long, value_name = "SPEED")]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     feed: Option<Speed>,
     /// Feed of ramps and plunges [default: 300mm/min]
-    #[arg(long, value_name = "SPEED")]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     plunge_feed: Option<Speed>,
     /// Spindle speed in revolutions a minute [default: 18000]
     #[arg(long, value_name = "RPM")]
@@ -93,7 +93,7 @@ struct CutArgs {
     side: Option<Side>,
     /// Smallest radius of the path in inside corners: a length, or auto for feed squared over acceleration
     /// [default: auto]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     path_radius: Option<TypedPathRadius>,
     /// Acceleration of the machine in mm/s² [default: 500]
     #[arg(long, value_name = "NUMBER")]
@@ -204,13 +204,14 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let checked = check(args, &job, &plan)?;
 
     let target = target(args);
-    output::write(&target, checked.text.as_bytes())?;
-    let mut written = vec![target.clone()];
+    let mut contents = vec![(target.clone(), checked.text.clone().into_bytes())];
     if !args.no_preview && target != Path::new("-") {
-        let picture = target.with_extension("png");
-        output::write(&picture, &draw(&job, &plan, &checked)?)?;
-        written.push(picture);
+        contents.push((target.with_extension("png"), draw(&job, &plan, &checked)?));
     }
+    output::write_together(
+        &contents.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect::<Vec<_>>(),
+    )?;
+    let written: Vec<PathBuf> = contents.into_iter().map(|(path, _)| path).collect();
     let report = MillReport {
         input: &args.input,
         job: &job,
@@ -259,7 +260,15 @@ fn make_plan(args: &MillArgs, part: &Region, job: &Job) -> Result<Plan> {
     } else {
         (stays, 0)
     };
-    let toolpath = cam::plan(job, part, &closed)?;
+    let toolpath = cam::plan(job, part, &closed).map_err(|error| match (error, args.cut.topology) {
+        (PlanError::Offset(OffsetError::NoRoom { at }), TopologyArg::Keep) => anyhow!(
+            "the tool does not fit between parts of the outline at ({:.4}, {:.4}) of the drawing, y up, in millimetres: \
+             try --topology merge, which fills such places, or a smaller tool",
+            at.x,
+            at.y
+        ),
+        (error, _) => error.into(),
+    })?;
     // From here on in the machine's coordinates, which are those of the certificate and of the picture.
     let part = part.translated(toolpath.translation);
     let kept = match job.side {

@@ -206,21 +206,24 @@ fn minutes(seconds: f64) -> String {
     }
 }
 
+/// Sizes are known to a hundredth of themselves.
 fn describe(feature: &LostFeature) -> String {
     let at = |p: &Place| format!("at ({:.3}, {:.3})", p.x, p.y);
     match feature {
         LostFeature::HoleFilled { center, diameter, .. } => {
-            format!("hole of diameter {diameter:.3} mm {}: filled, the tool cannot enter it", at(center))
+            format!("hole of diameter {diameter:.2} mm {}: filled, the tool cannot enter it", at(center))
         }
         LostFeature::PartsMerged { components, place, width } => {
-            format!("{components} parts merge {}, across a gap of {width:.3} mm", at(place))
+            format!("{components} parts merge {}, across a gap of {width:.2} mm", at(place))
         }
-        LostFeature::GapFilled { place, width, .. } => format!("gap {width:.3} mm wide {}: filled", at(place)),
+        LostFeature::GapFilled { place, width, depth, .. } => {
+            format!("gap up to {width:.2} mm wide {}: filled, {depth:.2} mm deep", at(place))
+        }
         LostFeature::ComponentLost { center, diameter, .. } => {
-            format!("opening of diameter {diameter:.3} mm {}: the tool cannot enter it", at(center))
+            format!("opening of diameter {diameter:.2} mm {}: the tool cannot enter it", at(center))
         }
         LostFeature::NeckCut { place, width, .. } => {
-            format!("neck {width:.3} mm wide {}: the tool cannot enter it", at(place))
+            format!("neck {width:.2} mm wide {}: the tool cannot enter it", at(place))
         }
     }
 }

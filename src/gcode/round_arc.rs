@@ -17,6 +17,10 @@ const FLAT_SAGITTA: f64 = 0.1;
 /// How far the middle of the written arc may be off, in last decimals, beyond what rounding its ends explains.
 const LARGEST_DEVIATION: f64 = 1.0;
 
+/// Half the chord over the radius below which an arc keeps its radius exactly, a quarter turn: its sagitta, which is soon no
+/// more than the rounding of its ends, says too little about its radius, and a path must not turn tighter than promised.
+const KEEPS_RADIUS: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
 /// Radii below this many last decimals cannot be told from their rounding.
 const SMALLEST_RADIUS: f64 = 5.0;
 
@@ -53,18 +57,22 @@ pub(super) fn round_arc(exact: &Segment, arc: &Arc, start: [i64; 2], end: [i64; 
         // The ends became one: a controller would read a full circle.
         return if sweep < PI { Rounded::Line } else { Rounded::Unwritable };
     };
-    // Of all centres on the bisector, the one whose arc passes through the middle of the exact arc. Unlike the nearest to
-    // the exact centre this stays good on short arcs, whose rounded chord points elsewhere.
+    // Of all centres on the bisector, on short arcs the one at the exact radius, on others the one whose arc passes through
+    // the middle of the exact arc. Unlike the centre nearest to the exact one both stay good where the rounded chord points
+    // elsewhere.
     let middle = exact.point_at(0.5);
     let half = 0.5 * chord.norm();
     let normal = left_normal(along);
     let center_of_chord = nalgebra::center(&s, &e);
     // Height of the arc over the chord, to the right for arcs that turn left.
     let height = -arc.turn.sign() * (middle - center_of_chord).dot(&normal);
-    if height < FLAT_SAGITTA {
+    let depth = if half < KEEPS_RADIUS * arc.radius && sweep < PI {
+        (arc.radius * arc.radius - half * half).sqrt()
+    } else if height < FLAT_SAGITTA {
         return Rounded::Line;
-    }
-    let depth = (half * half - height * height) / (2.0 * height);
+    } else {
+        (half * half - height * height) / (2.0 * height)
+    };
     let ideal = center_of_chord + normal * (arc.turn.sign() * depth);
     let mut best: Option<(f64, f64, [i64; 2])> = None;
     for dj in -1..=1 {
@@ -124,4 +132,32 @@ pub(super) fn lines_for_arc(exact: &Segment, arc: &Arc, part_side: Turn, toleran
     }
     points.push(exact.end);
     points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plane::Link;
+
+    #[test]
+    fn short_arcs_keep_their_radius() {
+        let mut written = 0;
+        for radius in [800.3, 5555.56, 21_430.7] {
+            for step in 1..400 {
+                let (sweep, from) = (1.4 / f64::from(step), f64::from(step) * 0.7);
+                let turn = if step % 2 == 0 { Turn::Left } else { Turn::Right };
+                let arc = Arc { center: Point::new(0.3, -0.4), radius, turn };
+                let start = arc.center + Vector::new(from.cos(), from.sin()) * radius;
+                let exact = Segment { start, end: arc.travel(start, sweep), link: Link::Arc(arc) };
+                let grid = |p: Point| [p.x.round() as i64, p.y.round() as i64];
+                let (s, e) = (grid(exact.start), grid(exact.end));
+                if let Rounded::Arc { i, j } = round_arc(&exact, &arc, s, e) {
+                    written += 1;
+                    let r = (i as f64).hypot(j as f64);
+                    assert!((r - radius).abs() < 2.0, "{r} for {radius}, sweep {sweep}");
+                }
+            }
+        }
+        assert!(written > 300, "{written}");
+    }
 }

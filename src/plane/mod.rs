@@ -7,6 +7,7 @@
 mod bounds;
 mod chain_tree;
 mod distance;
+mod inscribed;
 mod point;
 mod region;
 mod ring;
@@ -16,6 +17,7 @@ mod segment_distance;
 pub use bounds::Bounds;
 pub use chain_tree::ChainTree;
 pub use distance::BoundaryIndex;
+pub use inscribed::{InscribedCircle, inscribed_circle};
 pub use point::{Point, Vector, left_normal, right_normal, turn_angle};
 pub use region::{Region, TopologyCount};
 pub use ring::{Joint, Ring, Vertex, VertexId};

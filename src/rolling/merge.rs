@@ -6,8 +6,9 @@
 //! 2. Its crossings. At each, the boundary of D can only enter by one of the two pieces and leave by the other.
 //! 3. Walks along the stretches between crossings that obey this rule.
 //! 4. A walk bounds free space, or lies in D: distances to the input tell. The distances of *all* stretches are held
-//!    against the walks; a contradiction means that a crossing was misjudged by rounding, and the whole is done again at
-//!    a radius that differs in the ninth digit ([`ATTEMPTS`]).
+//!    against the walks; a contradiction means that a crossing was misjudged by rounding, or that the preparation filled
+//!    too much, and the whole is done again from the input itself, at a radius that differs in the ninth digit
+//!    ([`ATTEMPTS`]).
 //! 5. Back to the boundary: a piece of the locus goes to the element it touched, bit for bit; a crossing is a centre
 //!    where the disk touches two elements, and gives a new arc from foot to foot. Centres are solved at the exact radius.
 //! 6. In a thin neck filled from both sides the new arcs cross each other: see [`super::trim`].
@@ -65,7 +66,9 @@ pub(super) fn merge(prepared: &Region, raw: &Region, r: f64, resolution: f64) ->
     for attempt in 0..ATTEMPTS {
         // Incommensurable steps: no coincidence survives two attempts.
         let shrink = SHRINK * (1.0 + 0.381_966 * f64::from(attempt));
-        let merged = Attempt::new(prepared, &solid, r, r * (1.0 - shrink), resolution).run();
+        // The input itself is the safest thing to start from, and the slowest.
+        let start = if attempt == 0 { prepared } else { raw };
+        let merged = Attempt::new(start, &solid, r, r * (1.0 - shrink), resolution).run();
         let settled = merged.contradictions == 0;
         if best.as_ref().is_none_or(|b| merged.contradictions < b.contradictions) {
             best = Some(merged);

@@ -35,6 +35,12 @@ const MIN_EXCESS: f64 = 1e-9;
 /// the radius. It bounds the containment error.
 const HIDDEN: f64 = 1e-10;
 
+/// A disk is clear of a link that it overlaps by less than this, relative to the radius: rounding of flat crossings.
+const CLEAR: f64 = 1e-9;
+
+/// A concave turn below this (radians) at the end of a scan is what is left of tangents known to 1e-8.
+const UNSETTLED: f64 = 1e-6;
+
 /// The excess above which a pocket winds back on itself so far that a local operation may be wrong.
 const SAFE_EXCESS: f64 = 3.1;
 
@@ -58,7 +64,7 @@ pub(super) enum Mode {
 pub(super) struct Scan {
     /// The ring with its new arcs; empty where the disk fits nowhere in a hole.
     pub(super) ring: Ring,
-    /// Whether the scan came to its end; operations left undone to be safe do not count.
+    /// Whether the scan came to its end; operations that [`Mode::Safe`] left undone do not count.
     pub(super) finished: bool,
 }
 
@@ -366,7 +372,7 @@ impl<'a> Roller<'a> {
                 if !self.is_rolling(c)
                     && d != a
                     && d != b
-                    && let Some((start, end)) = self.corner(&left, &self.track(c))
+                    && let Some((start, end)) = self.corner(a, c)
                 {
                     return Step::Corner { first: b, start, last: c, end };
                 }
@@ -378,7 +384,7 @@ impl<'a> Roller<'a> {
                 if !self.is_rolling(z)
                     && z != c
                     && z != b
-                    && let Some((start, end)) = self.corner(&self.track(z), &right)
+                    && let Some((start, end)) = self.corner(z, b)
                 {
                     return Step::Corner { first: a, start, last: b, end };
                 }
@@ -407,13 +413,17 @@ impl<'a> Roller<'a> {
 
     /// A corner with an arc of the input on at least one side.
     fn curved_corner(&self, a: u32, b: u32, c: u32, left: &Track, right: &Track) -> Step {
-        if let Some((start, end)) = self.corner(left, right) {
+        if let Some((start, end)) = self.corner(a, b) {
             return Step::Cut { start, end };
         }
         let min_link = MIN_LINK * self.r;
-        // The disk reaches beyond an end: it rests on that end and touches the other link.
-        let forward = self.touch_ahead(self.node(a).point, right).filter(|t| t.at < right.length - min_link);
-        let back = self.touch_behind(left, self.node(c).point).filter(|t| t.at > min_link);
+        // The disk reaches beyond an end: it rests on that end and touches the other link, clear of the first.
+        let forward = self
+            .touch_ahead(self.node(a).point, right)
+            .filter(|t| t.at < right.length - min_link && self.is_clear(right.center_at(t, self.r), a));
+        let back = self
+            .touch_behind(left, self.node(c).point)
+            .filter(|t| t.at > min_link && self.is_clear(left.center_at(t, self.r), b));
         match (forward, back) {
             (Some(t), Some(s)) if t.at > left.length - s.at => Step::Back(s.point, Meets::Tangent),
             (Some(t), _) => Step::Forward(t.point, Meets::Tangent),
@@ -422,8 +432,15 @@ impl<'a> Roller<'a> {
         }
     }
 
-    /// The contacts of a disk that touches both tracks, the first one before its end and the second after its start.
-    fn corner(&self, left: &Track, right: &Track) -> Option<(Point, Point)> {
+    /// Whether the disk about `center` holds no part of the link that leaves node `i`.
+    fn is_clear(&self, center: Point, i: u32) -> bool {
+        !self.segment(i).is_nearer(center, self.r * (1.0 - CLEAR))
+    }
+
+    /// The contacts of a disk that touches the links of nodes `i` and `j`, the first one before its end and the second
+    /// after its start.
+    fn corner(&self, i: u32, j: u32) -> Option<(Point, Point)> {
+        let (left, right) = (&self.track(i), &self.track(j));
         let (r, min_link) = (self.r, MIN_LINK * self.r);
         let (first, second): (Contact, Contact) = if left.is_straight() && right.is_straight() {
             let (u, w) = (left.tangent_at(left.start), right.tangent_at(right.start));
@@ -445,7 +462,12 @@ impl<'a> Roller<'a> {
             let inside = touching.filter(|(t, s)| {
                 t.at > min_link && t.at <= left.length + min_link && s.at >= -min_link && s.at < right.length - min_link
             });
-            inside.max_by(|a, b| a.0.at.total_cmp(&b.0.at))?
+            let nearest = inside.max_by(|a, b| a.0.at.total_cmp(&b.0.at))?;
+            let center = left.center_at(&nearest.0, r);
+            if !(self.is_clear(center, i) && self.is_clear(center, j)) {
+                return None;
+            }
+            nearest
         };
         let fits = first.at > min_link
             && first.at <= left.length + min_link
@@ -533,17 +555,23 @@ impl<'a> Roller<'a> {
     }
 
     fn kill(&self, a: u32, b: u32, c: u32) -> Step {
-        if self.mode == Mode::Geodesic {
-            return Step::Kill;
-        }
         let (from, to) = (self.node(a).point, self.node(c).point);
+        // An arc of the input may bulge where its ends do not tell.
+        let bulges = |i: u32| {
+            matches!(self.node(i).link, LinkKind::Input(_)) && !self.is_clear(center_of_chord(from, to, self.r), i)
+        };
+        if bulges(a) || bulges(b) {
+            return Step::Refuse;
+        }
         let chord = (to - from).norm();
-        let spans = chord > MIN_EXCESS * self.r && chord <= 2.0 * self.r * (1.0 + HIDDEN);
+        let spans = chord <= 2.0 * self.r * (1.0 + HIDDEN);
         let hidden = || {
             let center = center_of_chord(from, to, self.r);
             (self.node(b).point - center).norm() >= self.r * (1.0 - HIDDEN)
         };
-        if spans && hidden() { Step::Kill } else { Step::Refuse }
+        // Where the ends coincide there is no telling on which side of them the disk lies.
+        let safe = self.mode == Mode::Geodesic || (chord > MIN_EXCESS * self.r && hidden());
+        if spans && safe { Step::Kill } else { Step::Refuse }
     }
 
     fn apply(&mut self, step: Step, a: u32, b: u32, c: u32) {
@@ -617,7 +645,33 @@ impl<'a> Roller<'a> {
         node.excess = Some(0.0);
     }
 
+    /// Whether no node is left that the disk cannot follow.
+    fn is_settled(&self) -> bool {
+        let mut i = self.head;
+        for _ in 0..self.alive {
+            let (u, v) = (self.tangent(self.node(i).prev, false), self.tangent(i, true));
+            let cross = u.perp(&v);
+            if cross < -UNSETTLED {
+                let smooth = self.node(i).source.is_some_and(|s| {
+                    self.input.vertices[s as usize].joint == Joint::Smooth
+                        && follows_samples(
+                            -turn_angle(u, v),
+                            self.segment(self.node(i).prev).length(),
+                            self.segment(i).length(),
+                            self.r,
+                        )
+                });
+                if !smooth {
+                    return false;
+                }
+            }
+            i = self.node(i).next;
+        }
+        true
+    }
+
     fn finish(self) -> Scan {
+        let finished = !self.exhausted && (self.mode == Mode::Safe || self.is_settled());
         let mut vertices = Vec::with_capacity(self.alive);
         if self.alive > 0 {
             let mut i = self.head;
@@ -636,7 +690,7 @@ impl<'a> Roller<'a> {
                 }
             }
         }
-        Scan { ring: Ring { vertices }, finished: !self.exhausted }
+        Scan { ring: Ring { vertices }, finished }
     }
 }
 

@@ -83,6 +83,11 @@ impl Track {
         }
     }
 
+    /// The centre of the disk of radius `r` that touches the track at `contact` from the right.
+    pub(super) fn center_at(&self, contact: &Contact, r: f64) -> Point {
+        contact.point + right_normal(self.tangent_at(contact.point)) * r
+    }
+
     /// The contact of a disk of radius `r` with this centre, where it touches the continued track from the right.
     pub(super) fn touch(&self, center: Point, r: f64) -> Option<Contact> {
         // Centres come from crossings of carriers; along flat crossings they are good to the root of the rounding.

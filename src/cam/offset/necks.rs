@@ -3,9 +3,9 @@
 //! On either side of a neck the disk comes to rest, and the two resting disks overlap: their circles meet in two points,
 //! which become convex corners of the closing, less than a diameter apart. The offset's arcs about these corners cross,
 //! and what lies between the crossings is too near to the corner opposite. It is cut out, and the path on either side is
-//! joined to itself.
+//! joined to itself by an arc about the centre of the resting disk, so that it turns no tighter than elsewhere.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use super::OffsetError;
 use crate::plane::{Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Turn, Vertex, right_normal};
@@ -25,11 +25,16 @@ struct Element {
     segment: Segment,
     joint: Joint,
     next: Option<usize>,
+    /// Whether an arc has taken its place.
+    is_gone: bool,
 }
 
 /// The rings of an offset of `closed` by `distance`, with the necks cut out.
 pub(super) fn cut_necks(rings: Vec<Ring>, closed: &Region, distance: f64) -> Result<Vec<Ring>, OffsetError> {
-    let crossings = crossings(&rings, closed, distance);
+    let corners = corners(closed);
+    // No concave feature is tighter than the disk that rested, whose arcs meet in these corners.
+    let resting = corners.values().copied().fold(f64::INFINITY, f64::min);
+    let crossings = crossings(&rings, &corners, distance);
     if crossings.is_empty() {
         return Ok(rings);
     }
@@ -66,14 +71,16 @@ pub(super) fn cut_necks(rings: Vec<Ring>, closed: &Region, distance: f64) -> Res
                 start_kept |= i == 0 && k == 0;
                 before = Some(elements.len());
                 let joint = if k == 0 { ring.vertices[i].joint } else { Joint::Corner };
-                elements.push(Element { segment: part, joint, next: None });
+                elements.push(Element { segment: part, joint, next: None, is_gone: false });
             }
         }
         if let Some(last) = before.filter(|_| start_kept) {
             elements[last].next = Some(first);
         }
     }
-    join_loose_ends(&mut elements, distance)?;
+    for (end, start) in join_loose_ends(&mut elements, distance)? {
+        round(&mut elements, end, start, resting);
+    }
     out.extend(trace(&elements));
     Ok(out)
 }
@@ -87,18 +94,30 @@ struct Crossing {
     angle: f64,
 }
 
+/// Corners between two concave arcs, by their bits, with the smaller radius: one of the two corners of a neck always is such.
+fn corners(closed: &Region) -> BTreeMap<(u64, u64), f64> {
+    let concave = |l: Link| match l {
+        Link::Arc(a) if a.turn == Turn::Right => Some(a.radius),
+        _ => None,
+    };
+    let mut corners = BTreeMap::new();
+    for ring in &closed.rings {
+        for (i, vertex) in ring.vertices.iter().enumerate() {
+            let before = ring.vertices[(i + ring.len() - 1) % ring.len()].link;
+            if let (Some(a), Some(b)) = (concave(before), concave(vertex.link)) {
+                corners.insert(bits(vertex.point), a.min(b));
+            }
+        }
+    }
+    corners
+}
+
+fn bits(p: Point) -> (u64, u64) {
+    (p.x.to_bits(), p.y.to_bits())
+}
+
 /// The crossings of arcs about corners of necks with other arcs about corners, in the order of the elements.
-fn crossings(rings: &[Ring], closed: &Region, distance: f64) -> Vec<Crossing> {
-    let bits = |p: Point| (p.x.to_bits(), p.y.to_bits());
-    // Corners between two concave arcs: one of the two corners of a neck always is such.
-    let concave = |l: Link| matches!(l, Link::Arc(a) if a.turn == Turn::Right);
-    let corners: BTreeSet<(u64, u64)> = closed
-        .rings
-        .iter()
-        .flat_map(|r| (0..r.len()).map(move |i| (r.vertices[i], r.vertices[(i + r.len() - 1) % r.len()].link)))
-        .filter(|(v, before)| concave(v.link) && concave(*before))
-        .map(|(v, _)| bits(v.point))
-        .collect();
+fn crossings(rings: &[Ring], corners: &BTreeMap<(u64, u64), f64>, distance: f64) -> Vec<Crossing> {
     if corners.is_empty() {
         return Vec::new();
     }
@@ -114,7 +133,7 @@ fn crossings(rings: &[Ring], closed: &Region, distance: f64) -> Vec<Crossing> {
         }
     }
     let mut found = Vec::new();
-    for (a, at) in about.iter().enumerate().filter(|(_, at)| corners.contains(&bits(at.3.center))) {
+    for (a, at) in about.iter().enumerate().filter(|(_, at)| corners.contains_key(&bits(at.3.center))) {
         for (b, other) in about.iter().enumerate() {
             let apart = other.3.center - at.3.center;
             let length = apart.norm();
@@ -125,7 +144,7 @@ fn crossings(rings: &[Ring], closed: &Region, distance: f64) -> Vec<Crossing> {
             let across = right_normal(apart) * (height / length);
             let middle = nalgebra::center(&at.3.center, &other.3.center);
             for place in [middle + across, middle - across] {
-                if let (Some(p), Some(q)) = (way(at, place), way(other, place)) {
+                if let (Some(p), Some(q)) = (way(&at.2, &at.3, place), way(&other.2, &other.3, place)) {
                     found.push(Crossing { ring: at.0, element: at.1, angle: p });
                     found.push(Crossing { ring: other.0, element: other.1, angle: q });
                 }
@@ -137,7 +156,7 @@ fn crossings(rings: &[Ring], closed: &Region, distance: f64) -> Vec<Crossing> {
 }
 
 /// How far along an arc a point of its circle lies, if it belongs to the arc.
-fn way((_, _, segment, arc): &(usize, usize, Segment, Arc), p: Point) -> Option<f64> {
+fn way(segment: &Segment, arc: &Arc, p: Point) -> Option<f64> {
     let (angle, sweep) = (arc.angle_between(segment.start, p), segment.sweep());
     if angle > std::f64::consts::TAU - END_ANGLE {
         return Some(0.0);
@@ -162,8 +181,9 @@ fn split(segment: &Segment, angles: &[f64]) -> Vec<Segment> {
     parts
 }
 
-/// Leads every element without a next one to the loose start at its end.
-fn join_loose_ends(elements: &mut [Element], distance: f64) -> Result<(), OffsetError> {
+/// Leads every element without a next one to the loose start at its end; tells which were joined.
+fn join_loose_ends(elements: &mut [Element], distance: f64) -> Result<Vec<(usize, usize)>, OffsetError> {
+    let mut joined = Vec::new();
     let mut has_before = vec![false; elements.len()];
     elements.iter().filter_map(|e| e.next).for_each(|n| has_before[n] = true);
     let mut loose: Vec<usize> = (0..elements.len()).filter(|&i| !has_before[i]).collect();
@@ -179,11 +199,45 @@ fn join_loose_ends(elements: &mut [Element], distance: f64) -> Result<(), Offset
                 let start = loose.remove(slot);
                 elements[i].next = Some(start);
                 elements[start].joint = Joint::Corner;
+                joined.push((i, start));
             }
             None => return Err(OffsetError::NoRoom { at: end }),
         }
     }
-    Ok(())
+    Ok(joined)
+}
+
+/// Rounds the corner between two arcs about the corners of a neck: between them the path follows a disk of radius `resting`
+/// that touches both corners.
+fn round(elements: &mut Vec<Element>, before: usize, after: usize, resting: f64) {
+    let (a, b) = (elements[before].segment, elements[after].segment);
+    let (Link::Arc(about_a), Link::Arc(about_b)) = (a.link, b.link) else { return };
+    let radius = resting - about_a.radius;
+    let middle = nalgebra::center(&about_a.center, &about_b.center);
+    let half = 0.5 * (about_b.center - about_a.center).norm();
+    let Some(outward) = (a.end - middle).try_normalize(END_ANGLE * resting) else { return };
+    if radius <= END_ANGLE * resting || !radius.is_finite() || half >= resting {
+        return;
+    }
+    let center = middle + outward * (resting * resting - half * half).sqrt();
+    let foot = |corner: Point| corner + (center - corner) * (about_a.radius / resting);
+    let (first, last) = (foot(about_a.center), foot(about_b.center));
+    // Both feet lie on what is left of the two arcs, or nothing is rounded.
+    let (Some(to_first), Some(to_last)) = (way(&a, &about_a, first), way(&b, &about_b, last)) else { return };
+    let mut rest = Segment { start: first, end: last, link: Link::Arc(Arc { center, radius, turn: Turn::Right }) };
+    elements[before].segment.end = first;
+    if to_first <= END_ANGLE {
+        elements[before].is_gone = true;
+        rest.start = a.start;
+    }
+    elements[after].segment.start = last;
+    elements[after].joint = Joint::Corner;
+    if to_last >= b.sweep() - END_ANGLE {
+        elements[after].is_gone = true;
+        rest.end = b.end;
+    }
+    elements[before].next = Some(elements.len());
+    elements.push(Element { segment: rest, joint: Joint::Corner, next: Some(after), is_gone: false });
 }
 
 /// The rings that the elements make, each beginning at its first element.
@@ -195,8 +249,10 @@ fn trace(elements: &[Element]) -> Vec<Ring> {
         let mut at = Some(first);
         while let Some(i) = at.filter(|&i| !seen[i]) {
             seen[i] = true;
-            let Element { segment, joint, next } = elements[i];
-            vertices.push(Vertex { point: segment.start, link: segment.link, joint, id: None });
+            let Element { segment, joint, next, is_gone } = elements[i];
+            if !is_gone {
+                vertices.push(Vertex { point: segment.start, link: segment.link, joint, id: None });
+            }
             at = next;
         }
         if !vertices.is_empty() {

@@ -121,9 +121,25 @@ fn the_path_does_not_pass_a_neck() {
             crate::rolling::close(&part, crate::units::Radius::new(radius).unwrap(), crate::rolling::Topology::Merge);
         let path = offset(&closed.region, smallest).unwrap();
         let (near, far) = distances(&path, &closed.region);
-        assert!((near - smallest).abs() < 1e-9 && (far - smallest).abs() < 1e-9, "{radius} {smallest}: {near} {far}");
-        // One path around both, or one around each where the tool passes.
         let passes = smallest < 1.0;
+        // Where it does not pass it follows the resting disk, which is farther from the neck.
+        assert!((near - smallest).abs() < 1e-9, "{radius} {smallest}: {near}");
+        assert!(far < if passes { smallest } else { radius } + 1e-9, "{radius} {smallest}: {far}");
+        assert!(crate::rolling::smallest_concave_radius(&path) > radius - smallest - 1e-9);
+        if radius > smallest {
+            for ring in &path.rings {
+                for i in 0..ring.len() {
+                    let before = ring.segment((i + ring.len() - 1) % ring.len());
+                    let turn = crate::plane::turn_angle(before.end_tangent(), ring.segment(i).start_tangent());
+                    assert!(
+                        turn > -1e-6,
+                        "{radius} {smallest}: a concave corner of {turn} at {}",
+                        ring.vertices[i].point
+                    );
+                }
+            }
+        }
+        // One path around both, or one around each where the tool passes.
         assert_eq!(path.rings.len(), if passes { 2 } else { 1 }, "{radius} {smallest}");
         assert!(path.rings.iter().all(|r| r.area() > 0.0));
     }
