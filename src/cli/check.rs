@@ -175,7 +175,10 @@ fn lines(report: &Report, tolerance: f64, topology: TopologyArg, passes: bool) -
         None => line("smallest radius", "not below r".to_owned()),
     }
     if !passes && topology == TopologyArg::Merge && report.passes(tolerance, true) {
-        line("", "where topology agrees it passes: --topology keep accepts that, as clopen close does by default".to_owned());
+        line(
+            "",
+            "where topology agrees it passes: --topology keep accepts that, as clopen close does by default".to_owned(),
+        );
     }
     let meant = if topology == TopologyArg::Keep { ", where topology agrees" } else { "" };
     let verdict = if passes { "passes" } else { "fails" };

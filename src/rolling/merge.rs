@@ -197,16 +197,14 @@ impl<'a> Attempt<'a> {
     }
 
     /// Whether what the other locus touches at `e` comes nearer to `p` than the disk allows: a quick answer to most
-    /// questions whether `p` is covered.
+    /// questions whether `p` is covered. Only vertices that have not moved are believed: what the preparation made is not
+    /// yet known to be right.
     fn is_covered_by_twin(&self, p: Point, e: u32) -> bool {
         let twin = self.piece(self.events[e as usize].twin);
         let ring = &self.region.rings[twin.ring as usize];
-        match twin.touch {
-            Touch::Vertex => (ring.vertices[twin.node as usize].point - p).norm_squared() < self.limit * self.limit,
-            Touch::Link => ring.segment(twin.node as usize).is_nearer(p, self.limit),
-            // An arc that the preparation made is not yet known to be right.
-            Touch::Stuck => false,
-        }
+        let node = twin.node as usize;
+        let near = |v: &Vertex| v.id.is_some() && (v.point - p).norm_squared() < self.limit * self.limit;
+        near(&ring.vertices[node]) || near(&ring.vertices[(node + 1) % ring.len()])
     }
 
     /// A point well inside the stretch from `e` to the next event, and the length it stands for.
@@ -254,7 +252,7 @@ impl<'a> Attempt<'a> {
                 continue;
             }
             let contradicts = if in_kept_walk[e as usize] {
-                !self.has_room(p)
+                self.verdict(p) == Verdict::Covered
             } else {
                 let covered = self.is_covered_by_twin(p, e) || self.is_covered_by_twin(p, self.next(e));
                 !covered && self.verdict(p) == Verdict::Free

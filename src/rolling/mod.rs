@@ -17,7 +17,7 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Vector};
+use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Segment, Vector};
 use crate::units::Radius;
 
 /// What closing means where components come near each other.
@@ -38,7 +38,8 @@ pub struct Outcome {
     /// Places (centres of the disk) where the locus crosses itself: there the two meanings of [`Topology`] may differ.
     /// Empty: they agree, proved by the absence of crossings.
     pub differences: Vec<Point>,
-    /// Places where distances contradict the combinatorics of a merge, zero for a proved result.
+    /// Places where distances contradict the combinatorics of a merge, and input links that lie outside of the result:
+    /// zero for a result that stands.
     pub contradictions: usize,
 }
 
@@ -74,7 +75,13 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
     // What an unfinished scan leaves undone the merge does.
     let (prepared, _) = scan_rings(region, r, scan::Mode::Safe, resolution);
     let merged = merge::merge(&prepared, region, r, resolution);
-    Outcome { region: merged.region, differences: merged.bridges, contradictions: merged.contradictions }
+    let mut contradictions = merged.contradictions;
+    // So far from the origin that directions are uncertain, the result is looked at once more.
+    const COARSE: f64 = 1e-11;
+    if resolution > COARSE * r {
+        contradictions += poking_out(region, &merged.region, r, resolution);
+    }
+    Outcome { region: merged.region, differences: merged.bridges, contradictions }
 }
 
 fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
@@ -87,7 +94,22 @@ fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
         // The two meanings agree, and the merge has its distances to prove it by.
         return close_merged(input, r, resolution);
     }
-    Outcome { region, differences, contradictions: 0 }
+    // Where a curve comes near itself the scan has no proof: it must at least not have cut into the input.
+    let contradictions = poking_out(input, &region, r, resolution);
+    Outcome { region, differences, contradictions }
+}
+
+/// How many links of `input` start or pass outside of `result`, which should contain it.
+fn poking_out(input: &Region, result: &Region, r: f64, resolution: f64) -> usize {
+    const CONTAINED: f64 = 1e-9;
+    const MOST_SAMPLES: f64 = 256.0;
+    let slack = CONTAINED * r + merge::ROUNDING_STEPS * resolution;
+    let index = BoundaryIndex::new(result);
+    let far_winding = i32::from(input.area() < 0.0);
+    let is_out = |p: Point| index.winding_number(p) + far_winding <= 0 && !index.is_nearer(p, slack);
+    // A cut into a link is of the size of the disk, or its end is out.
+    let samples = |s: &Segment| (16.0 * s.length() / r).ceil().clamp(2.0, MOST_SAMPLES) as usize;
+    input.segments().filter(|s| (0..samples(s)).any(|k| is_out(s.point_at(k as f64 / samples(s) as f64)))).count()
 }
 
 /// Drops the rings that other rings have swallowed: an island in a hole that filled, a part that a hole closed in on. Tells
