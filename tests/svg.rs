@@ -578,16 +578,3 @@ fn a_font_that_is_none_is_refused_and_no_font_is_said() {
         assert!(error.to_string().contains("--font"), "{error}");
     }
 }
-
-#[cfg(feature = "text")]
-#[test]
-fn characters_that_no_font_has_are_searched_a_bounded_number_of_times() {
-    let Some(font) = font_file() else { return };
-    // Each of 4000 characters of a private plane would be searched in every font of the system.
-    let odd: String =
-        (0xf_0000u32..0xf_0fa0).filter_map(char::from_u32).map(|c| format!("<tspan>{c}</tspan>")).collect();
-    let text = TEXT.replace("Rg", &format!("Rg{odd}"));
-    let options = ReadOptions { fonts: vec![font], ..ReadOptions::default() };
-    let set = svg::read(text.as_bytes(), &options).unwrap();
-    assert!(set.region.topology().components >= 2);
-}

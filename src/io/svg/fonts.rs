@@ -18,7 +18,7 @@ pub(super) fn tree(document: &Document, options: &ReadOptions) -> Result<Result<
     #[cfg(feature = "text")]
     if document.descendants().any(|n| n.tag_name().name() == "text") {
         parsing.fontdb = with_text::database(options)?;
-        parsing.font_resolver.select_fallback = with_text::fallback();
+        parsing.font_resolver.select_fallback = with_text::bounded(usvg::FontResolver::default_fallback_selector());
     }
     #[cfg(not(feature = "text"))]
     let _ = options;
@@ -76,19 +76,48 @@ mod with_text {
         Ok(Arc::new(fonts))
     }
 
-    /// usvg's choice of another font for a character, remembered, and bounded by [`MAX_SEARCHES`].
-    pub fn fallback() -> usvg::FallbackSelectionFn<'static> {
-        let search = usvg::FontResolver::default_fallback_selector();
-        let found: Mutex<HashMap<(char, Vec<ID>), Option<ID>>> = Mutex::new(HashMap::new());
+    /// `search` for another font that has a character, each result remembered, and no more than [`MAX_SEARCHES`] of them.
+    pub fn bounded(search: usvg::FallbackSelectionFn<'static>) -> usvg::FallbackSelectionFn<'static> {
+        // The character and the fonts that lack it.
+        type Asked = (char, Vec<ID>);
+        let found: Mutex<HashMap<Asked, Option<ID>>> = Mutex::new(HashMap::new());
         Box::new(move |c, used, fonts| {
             let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
-            let key = (c, used.to_vec());
-            if let Some(font) = found.get(&key) {
+            let asked = (c, used.to_vec());
+            if let Some(font) = found.get(&asked) {
                 return *font;
             }
-            let font = if found.len() < MAX_SEARCHES { search(c, used, fonts) } else { return None };
-            found.insert(key, font);
+            if found.len() >= MAX_SEARCHES {
+                return None;
+            }
+            let font = search(c, used, fonts);
+            found.insert(asked, font);
             font
         })
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use std::sync::atomic::{AtomicUsize, Ordering};
+
+        use super::*;
+
+        #[test]
+        fn lost_characters_are_searched_once_each_and_not_without_end() {
+            let searches = Arc::new(AtomicUsize::new(0));
+            let counter = searches.clone();
+            let select = bounded(Box::new(move |_, _, _| {
+                counter.fetch_add(1, Ordering::Relaxed);
+                Some(ID::dummy())
+            }));
+            let mut fonts = Arc::new(Database::new());
+            for (k, c) in ('\u{f0000}'..'\u{f1000}').enumerate() {
+                for _ in 0..2 {
+                    let font = select(c, &[ID::dummy()], &mut fonts);
+                    assert_eq!(font.is_some(), k < MAX_SEARCHES);
+                }
+            }
+            assert_eq!(searches.load(Ordering::Relaxed), MAX_SEARCHES);
+        }
     }
 }
