@@ -35,7 +35,7 @@
 //! - [`io`]: SVG in and out;
 //! - [`cam`]: job, offset, order, toolpath; what a program's motions cut, and how long they take;
 //! - [`gcode`]: the text of programs: dialects, writer, reader, lint;
-//! - [`preview`]: pictures;
+//! - [`preview`]: pictures of drawings and programs;
 //! - [`cli`]: the command: alone knows clap and terminals.
 
 pub mod cam;

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clopen::io::svg::{self, Curves, Drawing, ReadError, ReadOptions, Strokes, WarningKind};
 use clopen::plane::{Joint, Link, Point, Region};
+use clopen::rolling::{self, Topology};
+use clopen::units::Radius;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
@@ -367,15 +369,15 @@ fn what_is_written_reads_back_the_same_bit_for_bit() {
     for (name, bytes) in drawings {
         let Ok(first) = svg::read(&bytes, &ReadOptions::default()) else { continue };
         let written = svg::write(&first, &first.region);
-        let second = svg::read(written.as_bytes(), &ReadOptions::default()).unwrap();
+        // Read for itself it may be sampled otherwise (it is one shape now, and parts are curves of their own): the ends
+        // of the commands stay.
+        let alone = svg::read(written.as_bytes(), &ReadOptions::default()).unwrap();
+        let present: Vec<Point> = alone.region.rings.iter().flat_map(|r| &r.vertices).map(|v| v.point).collect();
+        let vertices = first.region.rings.iter().flat_map(|r| &r.vertices);
+        assert!(vertices.filter(|v| v.joint == Joint::Corner).all(|v| present.contains(&v.point)), "{name}");
+        // Read alike it is the same.
+        let second = svg::read_alike(written.as_bytes(), &ReadOptions::default(), &first).unwrap();
         assert_eq!((first.mm_per_unit, &first.page), (second.mm_per_unit, &second.page), "{name}");
-        if first.sources.elements.len() > 1 {
-            // Written as one shape, the drawing may be sampled more coarsely: the ends of its commands stay.
-            let written: Vec<Point> = second.region.rings.iter().flat_map(|r| &r.vertices).map(|v| v.point).collect();
-            let vertices = first.region.rings.iter().flat_map(|r| &r.vertices);
-            assert!(vertices.filter(|v| v.joint == Joint::Corner).all(|v| written.contains(&v.point)), "{name}");
-            continue;
-        }
         let (a, b) = (normal_form(&first.region), normal_form(&second.region));
         assert_eq!(a.len(), b.len(), "{name}");
         let mut moved = 0.0f64;
@@ -462,4 +464,117 @@ fn cut_and_damaged_files_neither_panic_nor_hang() {
     }
     println!("{} refused, {} read", outcomes[0], outcomes[1]);
     assert!(outcomes[1] > 500);
+}
+
+/// How often each command letter stands in the path of a written drawing.
+fn commands(written: &str) -> impl Fn(char) -> usize {
+    let data = written.split(" d=\"").nth(1).unwrap().split('"').next().unwrap().to_owned();
+    move |letter| data.matches(letter).count()
+}
+
+#[test]
+fn a_closed_word_keeps_its_curves_whole_or_in_part() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/word.svg");
+    let text = std::fs::read_to_string(path).unwrap();
+    let before = svg::read(text.as_bytes(), &ReadOptions::default()).unwrap();
+    let outcome = rolling::close(&before.region, Radius::new(2.0).unwrap(), Topology::Keep);
+    let written = svg::write(&before, &outcome.region);
+    let curves = text.split_whitespace().filter(|w| w.starts_with('C')).count();
+    assert_eq!(curves, 38);
+    let count = commands(&written);
+    // No curve of the word is lost: each is there whole or as the one part that the disk left of it.
+    assert_eq!(count('C'), curves);
+    // The eight quarters of the O are untouched.
+    assert!(written.contains("C5 58 16 71 32 71C48 71 59 58 59 40C59 22 48 9 32 9C16 9 5 22 5 40Z"), "{written}");
+    // One arc where the disk lies in a corner, and straight lines as in the word but for the feet of the arcs.
+    assert!(count('A') >= 14 && count('L') <= 45, "{} arcs, {} lines", count('A'), count('L'));
+    assert!(written.len() < 5000, "{} bytes", written.len());
+
+    let vertices = |region: &Region| -> Vec<Point> {
+        region.rings.iter().flat_map(|r| r.vertices.iter().map(|v| v.point)).collect()
+    };
+    // Read to be compared, what was kept is there to the last bit: also the samples of the parts.
+    let after = svg::read_alike(written.as_bytes(), &ReadOptions::default(), &before).unwrap();
+    assert_eq!(after.chord_tolerance, before.chord_tolerance);
+    let bits = |p: &Point| (p.x.to_bits(), p.y.to_bits());
+    let present: std::collections::HashSet<_> = vertices(&after.region).iter().map(bits).collect();
+    let kept: Vec<Point> =
+        outcome.region.rings.iter().flat_map(|r| &r.vertices).filter(|v| v.id.is_some()).map(|v| v.point).collect();
+    assert!(kept.len() > 7000 && kept.iter().all(|p| present.contains(&bits(p))));
+    // Read for itself it is sampled by its own size.
+    let alone = svg::read(written.as_bytes(), &ReadOptions::default()).unwrap();
+    assert!(alone.chord_tolerance > 2.0 * before.chord_tolerance);
+}
+
+#[test]
+fn strokes_beside_fills_are_named_once() {
+    let body = "<g stroke='red'><path d='M0 0L9 0 9 9z'/><path d='M20 0L29 0 29 9z'/></g>\
+                <path d='M40 0L49 0 49 9z' stroke='red' stroke-opacity='0'/>";
+    let [warning] = &drawing(body).warnings[..] else { panic!() };
+    assert_eq!(warning.kind, WarningKind::StrokeBesideFill { shapes: 2 });
+    assert!(warning.to_string().contains("2 shape(s)") && warning.to_string().contains("--strokes"));
+    let text = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>{body}</svg>");
+    let strokes = ReadOptions { strokes: Strokes::Areas, ..ReadOptions::default() };
+    assert_eq!(svg::read(text.as_bytes(), &strokes).unwrap().warnings, []);
+}
+
+const TEXT: &str = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 40'>\
+                    <text x='5' y='30' font-family='No Such Family' font-size='30'>Rg</text></svg>";
+
+/// A font file of the system with Latin letters.
+#[cfg(feature = "text")]
+fn font_file() -> Option<PathBuf> {
+    use usvg::fontdb::{Database, Family, Query, Source};
+    let mut fonts = Database::new();
+    fonts.load_system_fonts();
+    let families = ["DejaVu Serif", "DejaVu Sans", "Liberation Serif", "Times New Roman", "Helvetica"];
+    let file = families.iter().find_map(|name| {
+        let face = fonts.query(&Query { families: &[Family::Name(name)], ..Query::default() })?;
+        match fonts.face(face)?.source.clone() {
+            Source::File(path) => Some(path),
+            _ => None,
+        }
+    });
+    if file.is_none() {
+        println!("skipped: no font of the system is known to this test");
+    }
+    file
+}
+
+#[cfg(feature = "text")]
+#[test]
+fn text_is_set_in_the_font_that_is_named() {
+    let Some(font) = font_file() else { return };
+    let options = ReadOptions { fonts: vec![font], ..ReadOptions::default() };
+    let set = svg::read(TEXT.as_bytes(), &options).unwrap();
+    // An R with one hole, a g with one or two, and a baseline of 30 below which only the g reaches.
+    let topology = set.region.topology();
+    assert!(topology.components == 2 && (2..=3).contains(&topology.holes), "{topology:?}");
+    let bounds = set.region.bounds();
+    assert!(bounds.min.y < -31.0 && bounds.max.y > -20.0 && bounds.min.x >= 5.0 && bounds.max.x < 60.0, "{bounds:?}");
+    assert_eq!(set.warnings, []);
+    // The same again, from fonts loaded before.
+    assert_eq!(svg::read(TEXT.as_bytes(), &options).unwrap(), set);
+    if let Some(folder) = shared() {
+        let bytes = std::fs::read(folder.join("awk_text_only.svg")).unwrap();
+        assert!(svg::read(&bytes, &options).unwrap().region.topology().holes >= 2);
+    }
+}
+
+#[cfg(feature = "text")]
+#[test]
+fn a_font_that_is_none_is_refused_and_no_font_is_said() {
+    let refused = |path: PathBuf| {
+        let options = ReadOptions { fonts: vec![path], ..ReadOptions::default() };
+        svg::read(TEXT.as_bytes(), &options).unwrap_err()
+    };
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
+    assert!(matches!(refused(manifest.join("no such font.ttf")), ReadError::Font { .. }));
+    let error = refused(manifest.join("Cargo.toml")).to_string();
+    assert!(error.contains("Cargo.toml") && error.contains("no TrueType"), "{error}");
+    // A family that no system has is not replaced by any other: the text is named, and the font option.
+    if let Err(error) = read(TEXT) {
+        assert!(matches!(&error, ReadError::NothingFilled { found, .. } if found.texts == 1), "{error}");
+        assert!(error.to_string().contains("--font"), "{error}");
+    }
 }

@@ -96,7 +96,7 @@ pub struct Outcome {
 /// Where a file cannot be read, the radius makes no sense for the drawing, or no reference is certified.
 pub(super) fn run(args: &CheckArgs) -> Result<ExitStatus> {
     let input = args.reading.read(&args.input)?;
-    let output = match args.reading.read(&args.output) {
+    let output = match args.reading.read_alike(&args.output, &input) {
         Ok(drawing) => drawing.region,
         // A result may well be empty: then nothing is what there is to check.
         Err(error) if matches!(error.downcast_ref(), Some(ReadError::NothingFilled { .. })) => Region::default(),

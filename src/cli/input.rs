@@ -92,10 +92,24 @@ impl ReadArgs {
     /// Names the file, and where in it the trouble is.
     pub(super) fn read_from(&self, bytes: &[u8], path: &Path) -> Result<Drawing> {
         let drawing = svg::read(bytes, &self.options()?).with_context(|| path.display().to_string())?;
+        Ok(Self::with_warnings(path, drawing))
+    }
+
+    /// Reads a drawing that was made from `other`, so that what was kept has the same vertices in both.
+    ///
+    /// # Errors
+    /// As [`ReadArgs::read`].
+    pub(super) fn read_alike(&self, path: &Path, other: &Drawing) -> Result<Drawing> {
+        let bytes = read_bytes(path)?;
+        let drawing = svg::read_alike(&bytes, &self.options()?, other).with_context(|| path.display().to_string())?;
+        Ok(Self::with_warnings(path, drawing))
+    }
+
+    fn with_warnings(path: &Path, drawing: Drawing) -> Drawing {
         for warning in &drawing.warnings {
             eprintln!("clopen: {}: {warning}", path.display());
         }
-        Ok(drawing)
+        drawing
     }
 
     fn options(&self) -> Result<ReadOptions> {

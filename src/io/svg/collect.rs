@@ -11,11 +11,10 @@ use usvg::roxmltree::{Node, NodeId};
 use super::affine::Affine;
 use super::document::Source;
 use super::error::{Found, MAX_COORDINATE, Place, ReadError, Warning, WarningKind};
+use super::locate::{Locator, best};
 use super::options::Strokes;
 use super::outline::Outline;
-use super::placement::placements;
-use super::rough::{looks_like, single_precision};
-use super::shape::{self, Shape, attribute};
+use super::rough::single_precision;
 use super::stroke;
 
 /// An area to be filled.
@@ -54,12 +53,10 @@ pub(super) struct Collector<'a, 'input> {
     source: &'a Source<'a, 'input>,
     strokes: Strokes,
     collection: Collection,
-    shapes: HashMap<NodeId, Option<Rc<Shape>>>,
-    placements: HashMap<NodeId, Rc<Vec<Affine>>>,
-    /// The exact maps of elements that can have a clip path.
-    clipped: Option<Rc<Vec<Affine>>>,
-    reusable: Option<Rc<Vec<Node<'a, 'input>>>>,
+    locator: Locator<'a, 'input>,
     elements: HashMap<NodeId, u32>,
+    /// Elements with a stroke beside their fill that is not taken.
+    fill_alone: HashSet<u32>,
     warned: HashSet<(NodeId, std::mem::Discriminant<WarningKind>)>,
 }
 
@@ -88,11 +85,9 @@ impl<'a, 'input> Collector<'a, 'input> {
             source,
             strokes,
             collection: Collection::default(),
-            shapes: HashMap::new(),
-            placements: HashMap::new(),
-            clipped: None,
-            reusable: None,
+            locator: Locator::new(source),
             elements: HashMap::new(),
+            fill_alone: HashSet::new(),
             warned: HashSet::new(),
         }
     }
@@ -103,6 +98,10 @@ impl<'a, 'input> Collector<'a, 'input> {
         let mut items = Vec::new();
         self.children(root, context, &mut items)?;
         self.collection.items = items;
+        if !self.fill_alone.is_empty() {
+            let shapes = self.fill_alone.len();
+            self.warn(self.source.document.root_element(), WarningKind::StrokeBesideFill { shapes });
+        }
         Ok(self.collection)
     }
 
@@ -133,7 +132,7 @@ impl<'a, 'input> Collector<'a, 'input> {
         }
         let mut clips = context.clips.to_vec();
         if let Some(clip) = group.clip_path() {
-            let outer = context.outer.then_inner(&self.exact_group(&rough));
+            let outer = context.outer.then_inner(&self.locator.exact_group(&rough));
             clips.push(self.clip(clip, outer)?);
         }
         if group.opacity().get() > 0.0 {
@@ -177,7 +176,9 @@ impl<'a, 'input> Collector<'a, 'input> {
             return Ok(());
         }
         self.collection.seen.insert(path.id().to_owned());
-        let Some(located) = self.locate(path, &context.rough) else { return self.nameless(path, context, items) };
+        let Some(located) = self.locator.locate(path, &context.rough) else {
+            return self.nameless(path, context, items);
+        };
         let node = located.node;
         if !path.is_visible() {
             let painted = path.fill().is_some() || path.stroke().is_some();
@@ -258,6 +259,8 @@ impl<'a, 'input> Collector<'a, 'input> {
             if let Some(place) = self.collection.elements.get(element as usize).cloned() {
                 self.collection.warnings.push(Warning { place, kind: WarningKind::StrokeOnly });
             }
+        } else {
+            self.fill_alone.insert(element);
         }
         Ok(())
     }
@@ -276,10 +279,10 @@ impl<'a, 'input> Collector<'a, 'input> {
         let named = source.elements(text.id()).next();
         // Under a `use` without its name: the text that stands there.
         let texts = || source.document.descendants().filter(|n| n.tag_name().name() == "text");
-        let node = named.or_else(|| texts().find(|n| best(&self.placements(*n), &context.rough).is_some()));
+        let node = named.or_else(|| texts().find(|n| best(&self.locator.placements(*n), &context.rough).is_some()));
         let Some(node) = node.or_else(|| texts().next()) else { return Ok(()) };
         let before = items.len();
-        let exact = best(&self.placements(node), &context.rough).map_or(context.rough, |(affine, _)| affine);
+        let exact = best(&self.locator.placements(node), &context.rough).map_or(context.rough, |(affine, _)| affine);
         let kind = if context.kind == Kind::Clip { Kind::Clip } else { Kind::Text(self.element(node)) };
         let outer = context.outer.then_inner(&exact);
         let inside = Context { kind, outer, rough: Affine::IDENTITY, clips: context.clips };
@@ -315,97 +318,9 @@ impl<'a, 'input> Collector<'a, 'input> {
             child => self.source.elements(child.id()).next(),
         })
     }
-
-    fn placements(&mut self, node: Node) -> Rc<Vec<Affine>> {
-        let source = self.source;
-        self.placements.entry(node.id()).or_insert_with(|| Rc::new(placements(source, node))).clone()
-    }
-
-    /// The exact map of a group that usvg knows roughly; the rough one where there is none.
-    fn exact_group(&mut self, rough: &Affine) -> Affine {
-        if *rough == Affine::IDENTITY {
-            return *rough;
-        }
-        let candidates = match &self.clipped {
-            Some(candidates) => candidates.clone(),
-            None => {
-                let can_clip =
-                    |n: &Node| matches!(n.tag_name().name(), "use" | "svg") || attribute(*n, "clip-path").is_some();
-                let nodes = self.source.document.descendants().filter(|n| n.is_element()).filter(can_clip);
-                /// A drawing with more clipped groups than this gets the rough maps.
-                const MAX_GROUPS: usize = 4096;
-                let all = nodes.take(MAX_GROUPS).flat_map(|n| placements(self.source, n)).take(MAX_GROUPS).collect();
-                let all: Rc<Vec<Affine>> = Rc::new(all);
-                self.clipped = Some(all.clone());
-                all
-            }
-        };
-        best(&candidates, rough).map_or(*rough, |(affine, _)| affine)
-    }
-
-    /// The shapes that `use` can bring in.
-    fn reusable(&mut self) -> Rc<Vec<Node<'a, 'input>>> {
-        let source = self.source;
-        let find = || {
-            let shapes = source.document.descendants().filter(|n| shape::SHAPES.contains(&n.tag_name().name()));
-            Rc::new(shapes.filter(|n| n.ancestors().any(|a| source.uses(a).next().is_some())).collect())
-        };
-        self.reusable.get_or_insert_with(find).clone()
-    }
-
-    fn shape(&mut self, node: Node) -> Option<Rc<Shape>> {
-        self.shapes.entry(node.id()).or_insert_with(|| shape::read(node).map(Rc::new)).clone()
-    }
-
-    /// The element that `path` stands for, read from the file.
-    fn locate(&mut self, path: &usvg::Path, rough: &Affine) -> Option<Located<'a, 'input>> {
-        let source = self.source;
-        let named = source.elements(path.id()).filter(|n| shape::SHAPES.contains(&n.tag_name().name()));
-        let mut nodes: Vec<Node> = named.collect();
-        // usvg takes the names away from what `use` brings in; and a name may be given twice: then the first that looks
-        // right and stands at the right place.
-        if path.id().is_empty() {
-            nodes = self.reusable().to_vec();
-        }
-        if nodes.len() > 1 || path.id().is_empty() {
-            nodes.retain(|node| self.shape(*node).is_none_or(|s| looks_like(&s.outline, path.data())));
-        }
-        let mut chosen: Option<(Node, Affine, f64)> = None;
-        for node in &nodes {
-            if let Some((affine, mismatch)) = best(&self.placements(*node), rough)
-                && chosen.is_none_or(|c| mismatch < c.2)
-            {
-                chosen = Some((*node, affine, mismatch));
-            }
-        }
-        let node = chosen.map(|c| c.0).or_else(|| source.elements(path.id()).next())?;
-        let shape = self.shape(node);
-        let is_round = matches!(node.tag_name().name(), "circle" | "ellipse");
-        let exact = shape.is_some() && chosen.is_some();
-        let cut_at = shape.as_ref().and_then(|s| s.cut_at);
-        let outline = match shape {
-            Some(shape) => shape.outline.clone(),
-            None => Rc::new(single_precision(path.data(), is_round)),
-        };
-        Some(Located { node, outline, affine: chosen.map_or(*rough, |c| c.1), exact, cut_at })
-    }
-}
-
-struct Located<'a, 'input> {
-    node: Node<'a, 'input>,
-    outline: Rc<Outline>,
-    affine: Affine,
-    exact: bool,
-    cut_at: Option<usize>,
 }
 
 /// The first coordinate beyond what is taken for meant.
 pub(super) fn largest(mut values: impl Iterator<Item = f64>) -> Option<f64> {
     values.find(|v| v.is_nan() || v.abs() > MAX_COORDINATE)
-}
-
-/// The exact map that agrees best with the rough one, and how well; `None` where none agrees.
-fn best(candidates: &[Affine], rough: &Affine) -> Option<(Affine, f64)> {
-    let rated = candidates.iter().map(|c| (*c, c.mismatch(rough))).filter(|c| c.1 <= 1.0);
-    rated.reduce(|a, b| if b.1 < a.1 { b } else { a })
 }

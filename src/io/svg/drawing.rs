@@ -4,6 +4,7 @@ use crate::plane::{Arc, Point, Region, VertexId};
 use crate::units::DrawingScale;
 
 use super::error::{Place, Warning};
+use super::options::Curves;
 use super::viewport::Page;
 
 /// A drawing.
@@ -16,6 +17,10 @@ pub struct Drawing {
     pub mm_per_unit: Option<f64>,
     /// The page.
     pub page: Page,
+    /// What became of circles and arcs; what is written follows it.
+    pub curves: Curves,
+    /// How far the chords may stray from the curves that they stand for, in user units.
+    pub chord_tolerance: f64,
     /// Where the vertices come from.
     pub sources: Sources,
     /// What was left out.
@@ -30,8 +35,10 @@ impl Drawing {
 }
 
 /// Where a vertex comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexSource {
+    /// Where it is.
+    pub point: Point,
     /// Index in [`Sources::elements`].
     pub element: u32,
     /// The curve that it is an inner sample of: index in [`Sources::curves`] and number of the sample from 1. A vertex
@@ -54,6 +61,8 @@ pub struct Curve {
     pub first_inner: u32,
     /// How many inner samples it has.
     pub inner: u32,
+    /// Its samples are at the parameters k / steps; `steps` is `inner` + 1 but where samples fell together.
+    pub steps: u32,
 }
 
 /// The shape of a curve between its ends.
@@ -69,13 +78,27 @@ pub enum CurveKind {
         radii: (f64, f64),
         /// Direction of the first axis in degrees, clockwise as y points down in a file.
         rotation: f64,
-        /// Whether it goes the long way round.
-        large_arc: bool,
+        /// How far it runs, in radians of the ellipse's parameter, positive.
+        angle: f64,
         /// Whether it runs clockwise as seen on the page.
         sweep: bool,
         /// The circle, where it is one and kept as arcs: its links are this one.
         arc: Option<Arc>,
     },
+}
+
+impl CurveKind {
+    /// The same curve from its end to its start.
+    pub fn reversed(self) -> CurveKind {
+        match self {
+            CurveKind::Quadratic(c) => CurveKind::Quadratic(c),
+            CurveKind::Cubic(c, d) => CurveKind::Cubic(d, c),
+            CurveKind::Elliptic { radii, rotation, angle, sweep, arc } => {
+                let arc = arc.map(|arc| Arc { turn: arc.turn.opposite(), ..arc });
+                CurveKind::Elliptic { radii, rotation, angle, sweep: !sweep, arc }
+            }
+        }
+    }
 }
 
 /// Where the vertices of a drawing come from.

@@ -206,6 +206,14 @@ pub enum WarningKind {
     /// Strokes that were not asked for.
     #[error("has a stroke and no fill: left out; --strokes takes strokes as areas")]
     StrokeOnly,
+    /// Strokes that were not asked for, on shapes that are filled. Said once, of the whole file.
+    #[error(
+        "{shapes} shape(s) in it have a stroke beside their fill: the fill alone is used; --strokes adds the stroke"
+    )]
+    StrokeBesideFill {
+        /// How many shapes.
+        shapes: usize,
+    },
     /// A dash pattern with too many dashes.
     #[error("the dash pattern is too fine: the stroke is taken as solid")]
     DashesTooFine,

@@ -10,7 +10,8 @@
 //! - circles and circular arcs are true arcs;
 //! - whatever is not in the region is named in a [`Warning`] or in the [`ReadError`].
 //!
-//! Colours and opacity (other than none) do not matter; masks, filters, images and markers are not applied.
+//! Colours and opacity (other than none) do not matter: a white shape is as solid as a black one, and does not cut a hole
+//! into what lies below it (subtract it in the drawing program). Masks, filters, images and markers are not applied.
 
 mod affine;
 mod collect;
@@ -19,9 +20,12 @@ mod drawing;
 mod elliptic;
 mod error;
 mod fonts;
+mod known;
 mod leftovers;
+mod locate;
 mod options;
 mod outline;
+mod part;
 mod placement;
 mod rough;
 mod sample;
@@ -45,6 +49,7 @@ use super::unite::{self, Rule};
 use affine::Affine;
 use collect::{Collection, Collector, Item};
 use document::Source;
+use known::Known;
 use sample::Sampling;
 use viewport::UnitSize;
 
@@ -53,6 +58,20 @@ use viewport::UnitSize;
 /// # Errors
 /// Where the file is broken or holds no filled shape; the error says where and what to try.
 pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Drawing, ReadError> {
+    read_with(bytes, options, None)
+}
+
+/// Reads an SVG file that was made from `other`, to be compared with it: with the chord tolerance of `other` in place of
+/// that of the options, and with the samples of `other` on its curves and on parts of them. So whatever of a curve was
+/// kept has the same vertices in both drawings.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_alike(bytes: &[u8], options: &ReadOptions, other: &Drawing) -> Result<Drawing, ReadError> {
+    read_with(bytes, options, Some(other))
+}
+
+fn read_with(bytes: &[u8], options: &ReadOptions, other: Option<&Drawing>) -> Result<Drawing, ReadError> {
     check_options(options)?;
     let text = document::decode(bytes)?;
     let plain = document::parse(text)?;
@@ -66,7 +85,10 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Drawing, ReadError> {
     let (group, outer) = below_root(&tree, root, &page);
     let mut collection = Collector::new(&source, options.strokes).collect(group, outer)?;
     leftovers::report(&source, &mut collection)?;
-    let (region, sources) = fill(&mut collection, options);
+    let known = other.map(Known::new);
+    let tolerance = other.map_or(options.flatten * extent(&collection), |other| other.chord_tolerance);
+    let sampling = Sampling { tolerance, curves: options.curves, known: known.as_ref() };
+    let (region, sources) = fill(&mut collection, sampling);
     if region.is_empty() {
         return Err(ReadError::NothingFilled { found: collection.found, warnings: collection.warnings });
     }
@@ -82,7 +104,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Drawing, ReadError> {
         (None, None, UnitSize::Millimetres(mm)) => Some(mm),
         (None, None, UnitSize::Unknown | UnitSize::Uneven) => None,
     };
-    Ok(Drawing { region, mm_per_unit, page, sources, warnings })
+    Ok(Drawing { region, mm_per_unit, page, curves: options.curves, chord_tolerance: tolerance, sources, warnings })
 }
 
 fn check_options(options: &ReadOptions) -> Result<(), ReadError> {
@@ -124,17 +146,20 @@ fn below_root<'t>(tree: &'t usvg::Tree, root: usvg::roxmltree::Node, page: &Page
     }
 }
 
-/// All items united.
-fn fill(collection: &mut Collection, options: &ReadOptions) -> (Region, Sources) {
+/// The larger side of the largest shape.
+fn extent(collection: &Collection) -> f64 {
     let extents = collection.items.iter().map(|item| {
         let bounds = item.outline.bounds(&item.affine);
         bounds.width().max(bounds.height())
     });
-    let extent = extents.fold(0.0, f64::max);
-    let sampling = Sampling { tolerance: options.flatten * extent, curves: options.curves };
+    extents.fold(0.0, f64::max)
+}
+
+/// All items united.
+fn fill(collection: &mut Collection, sampling: Sampling) -> (Region, Sources) {
     let sources = Sources { elements: std::mem::take(&mut collection.elements), ..Sources::default() };
     let mut filler = Filler { collection, sampling, sources, clips: HashMap::new() };
-    if extent <= 0.0 {
+    if sampling.tolerance <= 0.0 {
         return (Region::default(), filler.sources);
     }
     let items = &filler.collection.items;
@@ -144,7 +169,7 @@ fn fill(collection: &mut Collection, options: &ReadOptions) -> (Region, Sources)
 
 struct Filler<'a> {
     collection: &'a Collection,
-    sampling: Sampling,
+    sampling: Sampling<'a>,
     sources: Sources,
     clips: HashMap<usize, Vec<Ring>>,
 }

@@ -10,6 +10,7 @@ use crate::plane::{Arc, Joint, Link, Point, Ring, Turn, Vector, Vertex, VertexId
 use super::affine::Affine;
 use super::drawing::{Curve, CurveKind, Sources, VertexSource};
 use super::elliptic::EllipticArc;
+use super::known::Known;
 use super::options::Curves;
 use super::outline::{Command, Outline, Subpath};
 
@@ -22,10 +23,20 @@ const SMOOTH_ANGLE: f64 = 1e-3;
 
 /// How to sample.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sampling {
+pub(super) struct Sampling<'a> {
     /// Largest distance between chord and curve, root user units.
     pub tolerance: f64,
     pub curves: Curves,
+    /// Curves whose samples are to be met again.
+    pub known: Option<&'a Known<'a>>,
+}
+
+impl Sampling<'_> {
+    /// The inner samples of a curve of chords: those of the known curve that it is part of, or else `own`.
+    fn inner(&self, from: Point, kind: &CurveKind, to: Point, own: impl Iterator<Item = Point>) -> Vec<Point> {
+        let known = self.known.and_then(|known| known.samples(from, kind, to));
+        known.unwrap_or_else(|| own.collect())
+    }
 }
 
 /// The rings of `outline` under `affine`, open subpaths closed as a fill closes them.
@@ -60,7 +71,7 @@ impl Pen<'_> {
             return id;
         }
         let id = VertexId::from_index(self.sources.vertices.len());
-        self.sources.vertices.push(VertexSource { element: self.element, sample });
+        self.sources.vertices.push(VertexSource { point, element: self.element, sample });
         let joint = if self.polygon { Joint::Corner } else { joint };
         self.ring.vertices.push(Vertex { point, link: Link::Line, joint, id: Some(id) });
         id
@@ -73,11 +84,12 @@ impl Pen<'_> {
     }
 
     /// A curve from the last vertex by way of `inner` points to `to`, every link the same.
-    fn curve(&mut self, kind: CurveKind, link: Link, joint: Joint, inner: impl Iterator<Item = Point>, to: Point) {
+    fn curve(&mut self, kind: CurveKind, link: Link, joint: Joint, inner: Vec<Point>, to: Point) {
         let Some(from) = self.ring.vertices.last().and_then(|v| v.id) else { return };
         let number = self.sources.curves.len() as u32;
         let first_inner = self.sources.vertices.len();
-        for (k, p) in inner.enumerate() {
+        let steps = inner.len() as u32 + 1;
+        for (k, p) in inner.into_iter().enumerate() {
             self.link(link);
             self.vertex(p, joint, Some((number, k as u32 + 1)));
         }
@@ -91,6 +103,7 @@ impl Pen<'_> {
             to,
             first_inner: first_inner as u32,
             inner: inner as u32,
+            steps,
         });
     }
 }
@@ -170,16 +183,18 @@ fn draw(
             let c = affine.apply_y_up(control);
             let second = (from.coords - c.coords * 2.0 + to.coords).norm();
             let n = wang(second * 2.0, sampling.tolerance);
-            let inner = (1..n).map(|k| quadratic(from, c, to, k, n));
-            pen.curve(CurveKind::Quadratic(c), Link::Line, Joint::Smooth, inner, to);
+            let kind = CurveKind::Quadratic(c);
+            let inner = sampling.inner(from, &kind, to, (1..n).map(|k| quadratic(from, c, to, k, n)));
+            pen.curve(kind, Link::Line, Joint::Smooth, inner, to);
             tangents(&[from, c, to])
         }
         Command::Cubic(c, d, _) => {
             let [c, d] = [c, d].map(|c| affine.apply_y_up(c));
             let second = |a: Point, b: Point, c: Point| (a.coords - b.coords * 2.0 + c.coords).norm();
             let n = wang(second(from, c, d).max(second(c, d, to)) * 6.0, sampling.tolerance);
-            let inner = (1..n).map(|k| cubic(from, c, d, to, k, n));
-            pen.curve(CurveKind::Cubic(c, d), Link::Line, Joint::Smooth, inner, to);
+            let kind = CurveKind::Cubic(c, d);
+            let inner = sampling.inner(from, &kind, to, (1..n).map(|k| cubic(from, c, d, to, k, n)));
+            pen.curve(kind, Link::Line, Joint::Smooth, inner, to);
             tangents(&[from, c, d, to])
         }
         Command::Arc(arc) => {
@@ -196,7 +211,7 @@ fn draw(
             let kind = CurveKind::Elliptic {
                 radii: circle.map_or((axes.first, axes.second), |r| (r, r)),
                 rotation: if circle.is_some() { 0.0 } else { axes.degrees },
-                large_arc: arc.sweep.abs() > PI,
+                angle: arc.sweep.abs(),
                 sweep: clockwise,
                 arc: kept,
             };
@@ -206,6 +221,7 @@ fn draw(
                 None => (arc_samples(arc, axes.first.max(axes.second), sampling.tolerance), Link::Line, Joint::Smooth),
             };
             let inner = (1..n).map(|k| arc.point(affine, arc.start + arc.sweep * (k as f64 / n as f64)));
+            let inner = if kept.is_some() { inner.collect() } else { sampling.inner(from, &kind, to, inner) };
             pen.curve(kind, link, joint, inner, to);
             // A true arc has its own tangents: only chords need to be told that they stand for a curve.
             if kept.is_some() {
@@ -260,7 +276,8 @@ mod tests {
     fn sampled(commands: Vec<Command>, curves: Curves) -> (Vec<Ring>, Sources) {
         let outline = Outline { subpaths: vec![Subpath { start: Point::origin(), commands, closed: true }] };
         let mut sources = Sources::default();
-        let rings = rings(&outline, &Affine::IDENTITY, Sampling { tolerance: 1e-3, curves }, 0, &mut sources);
+        let rings =
+            rings(&outline, &Affine::IDENTITY, Sampling { tolerance: 1e-3, curves, known: None }, 0, &mut sources);
         (rings, sources)
     }
 
@@ -306,7 +323,7 @@ mod tests {
     fn circles_are_four_arcs_with_exact_points_or_a_polygon() {
         let outline = Outline::ellipse(Point::new(0.1, 0.2), 0.3, 0.3);
         let mut sources = Sources::default();
-        let sampling = Sampling { tolerance: 1e-3, curves: Curves::Arcs };
+        let sampling = Sampling { tolerance: 1e-3, curves: Curves::Arcs, known: None };
         let arcs = &rings(&outline, &Affine::IDENTITY, sampling, 0, &mut sources)[0];
         let expected = [(0.1 + 0.3, -0.2), (0.1, -(0.2 + 0.3)), (0.1 - 0.3, -0.2), (0.1, -(0.2 - 0.3))];
         let arc = Arc { center: Point::new(0.1, -0.2), radius: 0.3, turn: Turn::Right };

@@ -2,15 +2,21 @@
 //!
 //! A number is written with the fewest digits that read back as the same `f64`. A curve is written as its own command
 //! where the region still has all its samples in order and nothing else between them, forwards or (for a ring turned
-//! round) backwards; the arcs that remain are `A` commands.
+//! round) backwards. Where only some samples are left, each run of them is written as the part of the curve between
+//! its ends: a single command with control points of its own. The arcs that remain are `A` commands.
+//!
+//! So what is written strays from the region, whose links are the chords, by at most
+//! [`Drawing::chord_tolerance`], and is as near to the curves of the file as rounding allows. Of a drawing that was read
+//! as polygons ([`Curves::Polygon`]) the vertices are written, and no curves.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use crate::plane::{Link, Point, Region, Ring, Segment, VertexId};
+use crate::plane::{Link, Point, Region, Ring, Segment, Vertex, VertexId};
 
 use super::drawing::{Curve, CurveKind, Drawing};
+use super::options::Curves;
 use super::viewport::Page;
 
 /// Arcs beyond this angle, in radians, are written in two halves: near half a turn the end points of an `A` command fix
@@ -43,18 +49,39 @@ pub fn write(drawing: &Drawing, region: &Region) -> String {
 
 struct PathWriter<'a> {
     drawing: &'a Drawing,
-    /// The curves by the vertices where they start and where they end.
+    /// The curves by the vertices where they start and where they end; none where vertices alone are written.
     starting: HashMap<VertexId, Vec<u32>>,
     ending: HashMap<VertexId, Vec<u32>>,
+}
+
+/// A stretch of a ring that follows a curve, sample by sample.
+#[derive(Clone, Copy)]
+struct Run<'a> {
+    curve: &'a Curve,
+    /// The numbers of the samples where it starts and ends: they fall where it runs backwards.
+    from: u32,
+    to: u32,
+}
+
+impl Run<'_> {
+    fn length(&self) -> usize {
+        self.from.abs_diff(self.to) as usize
+    }
+
+    fn is_whole(&self) -> bool {
+        self.length() == self.curve.last() as usize
+    }
 }
 
 impl<'a> PathWriter<'a> {
     fn new(drawing: &'a Drawing) -> PathWriter<'a> {
         let mut starting: HashMap<VertexId, Vec<u32>> = HashMap::new();
         let mut ending: HashMap<VertexId, Vec<u32>> = HashMap::new();
-        for (index, curve) in drawing.sources.curves.iter().enumerate() {
-            starting.entry(curve.from).or_default().push(index as u32);
-            ending.entry(curve.to).or_default().push(index as u32);
+        if drawing.curves != Curves::Polygon {
+            for (index, curve) in drawing.sources.curves.iter().enumerate() {
+                starting.entry(curve.from).or_default().push(index as u32);
+                ending.entry(curve.to).or_default().push(index as u32);
+            }
         }
         PathWriter { drawing, starting, ending }
     }
@@ -71,9 +98,10 @@ impl<'a> PathWriter<'a> {
         let _ = write!(data, "M{}", Pair(at(0).point));
         let mut k = 0;
         while k < n {
-            if let Some((curve, backwards)) = self.whole_curve(ring, first, k) {
-                write_curve(curve, backwards, at(k + curve.inner as usize + 1).point, data);
-                k += curve.inner as usize + 1;
+            if let Some(run) = self.longest_run(ring, first, k)
+                && self.run(run, |samples| at(k + samples).point, data)
+            {
+                k += run.length();
                 continue;
             }
             let segment = ring.segment((first + k) % n);
@@ -86,42 +114,74 @@ impl<'a> PathWriter<'a> {
         data.push('Z');
     }
 
-    /// The curve that the ring follows, sample by sample, from its vertex `k` on (counted from `first`).
-    fn whole_curve(&self, ring: &Ring, first: usize, k: usize) -> Option<(&'a Curve, bool)> {
+    /// Writes the curve or the part of it; `point` is the vertex that many samples along. Whether it can be written.
+    fn run(&self, run: Run, point: impl Fn(usize) -> Point, data: &mut String) -> bool {
+        let Run { curve, from, to } = run;
+        let backwards = to < from;
+        // A part of an ellipse near half a turn is written in two, as arcs are.
+        let parts = match curve.kind {
+            CurveKind::Elliptic { angle, .. } if !run.is_whole() => {
+                let angle = angle * run.length() as f64 / f64::from(curve.steps);
+                ((angle / LARGEST_ARC).ceil() as usize).clamp(1, run.length())
+            }
+            _ => 1,
+        };
+        let mut done = 0;
+        for part in 1..=parts {
+            let next = run.length() * part / parts;
+            let sample = |along: usize| if backwards { from - along as u32 } else { from + along as u32 };
+            let (i, j) = (sample(done).min(sample(next)), sample(done).max(sample(next)));
+            let kind = if run.is_whole() { Some(curve.kind) } else { curve.part(&self.drawing.sources, i, j) };
+            let Some(kind) = kind else { return false };
+            write_curve(if backwards { kind.reversed() } else { kind }, point(next), data);
+            done = next;
+        }
+        true
+    }
+
+    /// The longest stretch of a curve that the ring follows from its vertex `k` on (counted from `first`).
+    fn longest_run(&self, ring: &Ring, first: usize, k: usize) -> Option<Run<'a>> {
         let n = ring.len();
-        let at = |k: usize| &ring.vertices[(first + k) % n];
-        let id = at(k).id?;
-        let candidates = |map: &HashMap<VertexId, Vec<u32>>| map.get(&id).cloned().unwrap_or_default();
-        let forwards = candidates(&self.starting).into_iter().map(|c| (c, false));
-        let backwards = candidates(&self.ending).into_iter().map(|c| (c, true));
-        forwards.chain(backwards).find_map(|(number, backwards)| {
-            let curve = &self.drawing.sources.curves[number as usize];
-            let (inner, target) = (curve.inner as usize, if backwards { curve.from } else { curve.to });
-            let link = match curve.kind {
-                CurveKind::Elliptic { arc: Some(arc), .. } => Link::Arc(arc),
-                _ => Link::Line,
-            };
-            let link = if backwards { link.reversed() } else { link };
-            let sample = |j: usize| {
-                let place = if backwards { inner - j } else { j - 1 };
-                VertexId::from_index(curve.first_inner as usize + place)
-            };
-            let whole = k + inner < n
-                && (0..=inner).all(|j| at(k + j).link == link)
-                && (1..=inner).all(|j| at(k + j).id == Some(sample(j)))
-                && at(k + inner + 1).id == Some(target);
-            whole.then_some((curve, backwards))
-        })
+        let id = ring.vertices[(first + k) % n].id?;
+        let curves = &self.drawing.sources.curves;
+        let listed = |map: &HashMap<VertexId, Vec<u32>>| map.get(&id).cloned().unwrap_or_default();
+        let starting = listed(&self.starting).into_iter().map(|c| (c, 0, false));
+        let ending = listed(&self.ending).into_iter().map(|c| (c, curves[c as usize].last(), true));
+        let inner = self.drawing.sources.vertex(id).and_then(|v| v.sample).filter(|_| !self.starting.is_empty());
+        let inner = inner.into_iter().flat_map(|(c, k)| [(c, k, false), (c, k, true)]);
+        let runs = starting.chain(ending).chain(inner).filter_map(|(number, from, backwards)| {
+            let curve = curves.get(number as usize)?;
+            let length = followed(curve, from, backwards, |j| &ring.vertices[(first + k + j) % n], n - k);
+            let to = if backwards { from - length } else { from + length };
+            let run = Run { curve, from, to };
+            (length > 0 && (run.is_whole() || curve.has_parts())).then_some(run)
+        });
+        // Of equals the first.
+        runs.reduce(|a, b| if b.length() > a.length() { b } else { a })
     }
 }
 
-fn write_curve(curve: &Curve, backwards: bool, to: Point, data: &mut String) {
-    let _ = match curve.kind {
+/// How many samples of `curve`, from number `from` on, the vertices follow: at most `limit`.
+fn followed<'v>(curve: &Curve, from: u32, backwards: bool, at: impl Fn(usize) -> &'v Vertex, limit: usize) -> u32 {
+    let link = match curve.kind {
+        CurveKind::Elliptic { arc: Some(arc), .. } => Link::Arc(arc),
+        _ => Link::Line,
+    };
+    let link = if backwards { link.reversed() } else { link };
+    let left = if backwards { from } else { curve.last().saturating_sub(from) };
+    let goes_on = |&j: &u32| {
+        let next = if backwards { from - j } else { from + j };
+        j as usize <= limit && at(j as usize - 1).link == link && at(j as usize).id == Some(curve.sample(next))
+    };
+    (1..=left).take_while(goes_on).count() as u32
+}
+
+fn write_curve(kind: CurveKind, to: Point, data: &mut String) {
+    let _ = match kind {
         CurveKind::Quadratic(c) => write!(data, "Q{} {}", Pair(c), Pair(to)),
-        CurveKind::Cubic(c, d) if backwards => write!(data, "C{} {} {}", Pair(d), Pair(c), Pair(to)),
         CurveKind::Cubic(c, d) => write!(data, "C{} {} {}", Pair(c), Pair(d), Pair(to)),
-        CurveKind::Elliptic { radii: (rx, ry), rotation, large_arc, sweep, .. } => {
-            let (large, sweep) = (u8::from(large_arc), u8::from(sweep != backwards));
+        CurveKind::Elliptic { radii: (rx, ry), rotation, angle, sweep, .. } => {
+            let (large, sweep) = (u8::from(angle > PI), u8::from(sweep));
             write!(data, "A{} {} {} {large} {sweep} {}", rx, ry, plain(rotation), Pair(to))
         }
     };
@@ -159,7 +219,6 @@ fn plain(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use crate::io::svg::{ReadOptions, read};
-    use crate::plane::{Joint, Vertex};
 
     use super::*;
 
@@ -182,14 +241,73 @@ mod tests {
         assert_eq!(d, "M4 4L4 0C3 -1 1 -1 0 0.1L0 4Q2 4.5 4 4Z");
     }
 
-    #[test]
-    fn a_curve_with_a_moved_sample_is_written_as_links() {
-        let (drawing, d) = path_data("M0 4Q2 4.5 4 4L4 0L0 0Z");
-        assert!(d.contains('Q'));
+    /// The drawing's region with the sample in the middle of each curve moved off it.
+    fn with_moved_samples(drawing: &Drawing) -> Region {
+        let middles: Vec<VertexId> =
+            drawing.sources.curves.iter().filter(|c| c.inner > 0).map(|c| c.sample(c.last() / 2)).collect();
         let mut region = drawing.region.clone();
-        let moved = region.rings[0].vertices.iter_mut().find(|v| v.joint == Joint::Smooth).unwrap();
-        *moved = Vertex { id: None, ..*moved };
-        assert!(!write(&drawing, &region).contains('Q'));
+        for v in region.rings.iter_mut().flat_map(|r| &mut r.vertices) {
+            if v.id.is_some_and(|id| middles.contains(&id)) {
+                *v = Vertex { id: None, point: v.point + crate::plane::Vector::new(1e-3, 1e-3), ..*v };
+            }
+        }
+        region
+    }
+
+    const CURVES: &str = "M0 4C1 5 3 5 4 4Q5 2 4 0A3 2.5 10 0 0 0 0.1Z";
+
+    #[test]
+    fn a_curve_with_a_moved_sample_is_written_as_its_two_parts() {
+        // Clockwise and counterclockwise, so that the parts are written in both directions.
+        for path in [CURVES, "M0 4L0 0.1A3 2.5 10 0 1 4 0Q5 2 4 4C3 5 1 5 0 4Z"] {
+            let (drawing, _) = path_data(path);
+            let region = with_moved_samples(&drawing);
+            let written = write(&drawing, &region);
+            let count = |c| written.split(" d=\"").nth(1).unwrap().matches(c).count();
+            // Two chords at each moved sample, and the closing line is the Z or a line.
+            assert_eq!((count('C'), count('Q'), count('A')), (2, 2, 2), "{written}");
+            assert!((6..=7).contains(&count('L')), "{written}");
+            // The parts are the curves: their samples are found again, each bit of them.
+            let again = crate::io::svg::read_alike(written.as_bytes(), &ReadOptions::default(), &drawing).unwrap();
+            let points: Vec<Point> = again.region.rings.iter().flat_map(|r| &r.vertices).map(|v| v.point).collect();
+            assert_eq!(points.len(), region.vertex_count());
+            assert!(region.rings[0].vertices.iter().all(|v| points.contains(&v.point)));
+            // Sampled by themselves, too, they stray no farther than chords may.
+            let alone = read(written.as_bytes(), &ReadOptions::default()).unwrap();
+            let index = crate::plane::BoundaryIndex::new(&region);
+            let samples = alone.region.rings.iter().flat_map(|r| &r.vertices).map(|v| index.distance(v.point));
+            let worst = samples.fold(0.0, f64::max);
+            assert!(worst <= drawing.chord_tolerance, "{worst}");
+        }
+    }
+
+    #[test]
+    fn a_part_of_an_ellipse_near_half_a_turn_is_written_in_two() {
+        let (drawing, _) = path_data("M0 4A4 2 0 0 1 8 4Z");
+        let mut region = drawing.region.clone();
+        let last = drawing.sources.curves[0].sample(drawing.sources.curves[0].inner);
+        region.rings[0].vertices.retain(|v| v.id != Some(last));
+        let written = write(&drawing, &region);
+        assert_eq!(written.matches('A').count(), 2, "{written}");
+        let again = read(written.as_bytes(), &ReadOptions::default()).unwrap();
+        let step = PI / f64::from(drawing.sources.curves[0].steps);
+        assert!((again.region.area() - region.area()).abs() < step * step, "{written}");
+    }
+
+    #[test]
+    fn of_polygons_the_vertices_are_written() {
+        let text = format!("<svg viewBox='0 0 9 9'><path d='{CURVES}'/><circle cx='7' cy='7' r='1'/></svg>");
+        let options = ReadOptions { curves: Curves::Polygon, ..ReadOptions::default() };
+        let drawing = read(text.as_bytes(), &options).unwrap();
+        let written = write(&drawing, &drawing.region);
+        let data = written.split(" d=\"").nth(1).unwrap();
+        assert!(!data.contains(['C', 'Q', 'A']));
+        let again = read(written.as_bytes(), &options).unwrap();
+        let points =
+            |d: &Drawing| -> Vec<Point> { d.region.rings.iter().flat_map(|r| &r.vertices).map(|v| v.point).collect() };
+        let (first, second) = (points(&drawing), points(&again));
+        assert_eq!(first.len(), second.len());
+        assert!(first.iter().all(|p| second.contains(p)));
     }
 
     #[test]
