@@ -103,11 +103,11 @@ pub(super) fn run(args: &CloseArgs, operation: Operation) -> Result<ExitStatus> 
     output::write(&target, text.as_bytes())?;
     let report = Report::new(operation, topology, radius, drawing.mm_per_unit, &drawing.region, &outcome);
     match args.format {
-        FormatArg::Text => eprint!("{}", report.lines()),
-        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n")),
+        FormatArg::Text => output::say(&report.lines()),
+        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
     }
     if outcome.region.is_empty() {
-        eprintln!("clopen: nothing is left: the disk fits nowhere; try a smaller radius");
+        output::say("clopen: nothing is left: the disk fits nowhere; try a smaller radius\n");
     }
     Ok(if report.proved { ExitStatus::Done } else { ExitStatus::CheckFailed })
 }

@@ -192,6 +192,18 @@ struct Checked {
 /// Where the drawing or the job makes no sense, or a file cannot be written.
 pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let name = args.input.display();
+    let target = target(args);
+    let picture = (!args.no_preview && target != Path::new("-")).then(|| target.with_extension("png"));
+    output::keep_input(&args.input, &target)?;
+    if let Some(picture) = &picture {
+        if *picture == target {
+            bail!(
+                "{}: program and picture would be one file: name the program .nc, or add --no-preview",
+                target.display()
+            );
+        }
+        output::keep_input(&args.input, picture)?;
+    }
     let drawing = args.reading.read(&args.input)?;
     let Some(mm_per_unit) = drawing.mm_per_unit else {
         bail!(
@@ -203,10 +215,9 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let plan = make_plan(args, &drawing.region.scaled(mm_per_unit), &job).with_context(|| name.to_string())?;
     let checked = check(args, &job, &plan)?;
 
-    let target = target(args);
     let mut contents = vec![(target.clone(), checked.text.clone().into_bytes())];
-    if !args.no_preview && target != Path::new("-") {
-        contents.push((target.with_extension("png"), draw(&job, &plan, &checked)?));
+    if let Some(picture) = picture {
+        contents.push((picture, draw(&job, &plan, &checked)?));
     }
     output::write_together(
         &contents.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect::<Vec<_>>(),
@@ -230,9 +241,9 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     };
     // Where the program itself is on standard output, the certificate must not be.
     if target == Path::new("-") {
-        eprint!("{text}")
+        output::say(&text);
     } else {
-        output::print(&text)
+        output::print(&text)?;
     }
     Ok(match report.verdict() {
         Verdict::Good => ExitStatus::Done,
