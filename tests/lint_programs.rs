@@ -132,3 +132,19 @@ proptest! {
         }
     }
 }
+
+/// Not a number compares as neither above nor below: no motion would be found below such a top.
+#[test]
+fn the_top_of_the_stock_is_a_physical_length() {
+    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/programs/bad/rapid-through-material.nc");
+    let status = |top: &str| {
+        let mut command = assert_cmd::Command::cargo_bin("clopen").unwrap();
+        command.arg("lint").arg(&program).args(["--stock-top", top]).output().unwrap().status.code()
+    };
+    for top in ["nan", "inf", "2u", "high"] {
+        assert_eq!(status(top), Some(2), "{top}");
+    }
+    assert_eq!(status("0"), Some(1));
+    // Below everything, nothing is cut.
+    assert_eq!(status("-1000mm"), Some(0));
+}

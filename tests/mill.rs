@@ -309,3 +309,35 @@ fn the_certificate_as_json_has_units_in_its_names() {
     assert!((area - std::f64::consts::PI).abs() < 0.01, "{area}");
     assert!(certificate["time"].as_object().unwrap().keys().all(|k| k.ends_with("seconds")));
 }
+
+#[test]
+fn nothing_that_is_read_or_written_is_written_over() {
+    let folder = folder();
+    draw(folder.path(), "part.png", &format!("{SIZED}{PLATE}"));
+    // The picture would take the drawing's place, or the program's.
+    for arguments in [["part.png", "-o", "part.nc"], ["part.png", "-o", "part.png"], ["part.png", "-o", "out.png"]] {
+        assert_eq!(mill(folder.path(), &arguments).status.code(), Some(2), "{arguments:?}");
+        assert_eq!(names(folder.path()), ["part.png"], "{arguments:?}");
+    }
+    let output = mill(folder.path(), &["part.png", "-o", "part.nc", "--no-preview"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// `/dev/full` is handed over as an open stream: no path of it reaches the program.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_and_a_mute_standard_error_is_no_crash() {
+    let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let folder = folder();
+    draw(folder.path(), "part.svg", &format!("{SIZED}{PLATE}"));
+    let run = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("clopen"));
+        command.current_dir(folder.path()).args(arguments);
+        command
+    };
+    let told = run(&["mill", "part.svg", "--format", "json"]).stdout(full()).output().unwrap();
+    assert_eq!(told.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&told.stderr).contains("standard output"));
+    let mute = run(&["close", "part.svg", "-r", "1mm", "-o", "closed.svg"]).stderr(full()).status().unwrap();
+    assert_eq!(mute.code(), Some(0));
+}

@@ -103,7 +103,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<ExitStatus> {
         Err(error) => return Err(error),
     };
     let outcome = check(args, &input.region, input.mm_per_unit, &output)?;
-    output::print(&outcome.text);
+    output::print(&outcome.text)?;
     Ok(if outcome.passes { ExitStatus::Done } else { ExitStatus::CheckFailed })
 }
 

@@ -91,7 +91,7 @@ pub(super) fn run(args: &CloseArgs, operation: Operation) -> Result<ExitStatus> 
         bail!("--format json prints the report on standard output, where the drawing would go: add -o OUT.svg");
     }
     let target = args.output.clone().unwrap_or_else(|| PathBuf::from("-"));
-    output::refuse_overwriting(&args.input, &[&target])?;
+    output::keep_input(&args.input, &target)?;
     let drawing = args.reading.read(&args.input)?;
     let units = args.radius.to_user_units(&drawing.scale()).context("--radius")?;
     let radius = Radius::new(units).context("--radius")?;
@@ -105,11 +105,11 @@ pub(super) fn run(args: &CloseArgs, operation: Operation) -> Result<ExitStatus> 
     output::write(&target, text.as_bytes())?;
     let report = Report::new(operation, topology, radius, drawing.mm_per_unit, &drawing.region, &outcome);
     match args.format {
-        FormatArg::Text => eprint!("{}", report.lines()),
-        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n")),
+        FormatArg::Text => output::say(&report.lines()),
+        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
     }
     if outcome.region.is_empty() {
-        eprintln!("clopen: nothing is left: the disk fits nowhere; try a smaller radius");
+        output::say("clopen: nothing is left: the disk fits nowhere; try a smaller radius\n");
     }
     Ok(if report.proved { ExitStatus::Done } else { ExitStatus::CheckFailed })
 }

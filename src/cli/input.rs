@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 
+use super::output;
 use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, ReadOptions, Strokes};
 use crate::units::{DrawingScale, Length};
 
@@ -42,6 +43,17 @@ pub(super) fn into_text(bytes: Vec<u8>, path: &Path) -> Result<String> {
         let at = e.utf8_error().valid_up_to();
         anyhow::anyhow!("{}: this is not text (byte {at}); name a G-code program", path.display())
     })
+}
+
+/// A length of a program, in millimetres: there is no drawing that user units or per cent could refer to.
+///
+/// # Errors
+/// Names the option.
+pub(super) fn millimetres(length: Length, option: &str) -> Result<f64> {
+    let no_drawing = DrawingScale { mm_per_unit: None, diagonal: 0.0 };
+    length
+        .to_millimetres(&no_drawing)
+        .map_err(|_| anyhow::anyhow!("{option} needs a physical length, for example 3mm; {length} is none"))
 }
 
 /// How a drawing is read.
@@ -107,14 +119,13 @@ impl ReadArgs {
 
     fn with_warnings(path: &Path, drawing: Drawing) -> Drawing {
         for warning in &drawing.warnings {
-            eprintln!("clopen: {}: {warning}", path.display());
+            output::say(&format!("clopen: {}: {warning}\n", path.display()));
         }
         drawing
     }
 
     fn options(&self) -> Result<ReadOptions> {
-        let no_drawing = DrawingScale { mm_per_unit: None, diagonal: 0.0 };
-        let width_mm = self.width.map(|w| w.to_millimetres(&no_drawing)).transpose();
+        let width_mm = self.width.map(|w| millimetres(w, "--width")).transpose()?;
         Ok(ReadOptions {
             flatten: self.flatten,
             curves: match self.curves {
@@ -123,7 +134,7 @@ impl ReadArgs {
             },
             strokes: if self.strokes { Strokes::Areas } else { Strokes::Ignore },
             dpi: self.dpi,
-            width_mm: width_mm.map_err(|_| anyhow::anyhow!("--width needs a physical length, for example 100mm"))?,
+            width_mm,
             fonts: self.fonts.clone(),
         })
     }

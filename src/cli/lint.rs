@@ -9,6 +9,7 @@ use super::ExitStatus;
 use super::check::FormatArg;
 use super::{input, output};
 use crate::gcode::{Controller, LintOptions, Severity, lint};
+use crate::units::Length;
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
@@ -19,9 +20,9 @@ pub(super) struct LintArgs {
     /// Whose rules to apply; our own about safe motion always apply
     #[arg(long, value_enum, default_value_t = ControllerArg::Both)]
     controller: ControllerArg,
-    /// z of the top of the stock, in millimetres
-    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
-    stock_top: f64,
+    /// z of the top of the stock
+    #[arg(long, value_name = "LENGTH", default_value_t = Length::Millimetres(0.0), allow_hyphen_values = true)]
+    stock_top: Length,
     /// How to print the findings
     #[arg(long, value_enum, default_value_t = FormatArg::Text)]
     format: FormatArg,
@@ -44,20 +45,21 @@ enum ControllerArg {
 /// Where the file cannot be read.
 pub(super) fn run(args: &LintArgs) -> Result<ExitStatus> {
     let text = input::read_text(&args.file)?;
+    let stock_top = input::millimetres(args.stock_top, "--stock-top")?;
     let controller = match args.controller {
         ControllerArg::Grbl => Controller::Grbl,
         ControllerArg::Linuxcnc => Controller::LinuxCnc,
         ControllerArg::Both => Controller::Both,
     };
-    let findings = lint(&text, &LintOptions { controller, stock_top: args.stock_top });
+    let findings = lint(&text, &LintOptions { controller, stock_top });
     match args.format {
-        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&findings)? + "\n")),
+        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&findings)? + "\n"))?,
         FormatArg::Text => {
             let lines = findings.iter().map(|f| {
                 let severity = format!("{:?}", f.severity).to_lowercase();
                 format!("{}:{}: {severity}: {}\n", args.file.display(), f.line, f.message)
             });
-            output::print(&lines.collect::<String>());
+            output::print(&lines.collect::<String>())?;
             if findings.is_empty() {
                 eprintln!("{}: no findings", args.file.display());
             }

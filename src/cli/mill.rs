@@ -194,8 +194,16 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let name = args.input.display();
     let target = target(args);
     let picture = (!args.no_preview && target != Path::new("-")).then(|| target.with_extension("png"));
-    let targets: Vec<&Path> = std::iter::once(target.as_path()).chain(picture.as_deref()).collect();
-    output::refuse_overwriting(&args.input, &targets)?;
+    output::keep_input(&args.input, &target)?;
+    if let Some(picture) = &picture {
+        if *picture == target {
+            bail!(
+                "{}: program and picture would be one file: name the program .nc, or add --no-preview",
+                target.display()
+            );
+        }
+        output::keep_input(&args.input, picture)?;
+    }
     let drawing = args.reading.read(&args.input)?;
     let Some(mm_per_unit) = drawing.mm_per_unit else {
         bail!(
@@ -233,9 +241,9 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     };
     // Where the program itself is on standard output, the certificate must not be.
     if target == Path::new("-") {
-        eprint!("{text}")
+        output::say(&text);
     } else {
-        output::print(&text)
+        output::print(&text)?;
     }
     Ok(match report.verdict() {
         Verdict::Good => ExitStatus::Done,

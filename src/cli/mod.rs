@@ -71,7 +71,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(status) => status.into(),
         Err(error) => {
-            eprintln!("clopen: {error:#}");
+            output::say(&format!("clopen: {error:#}\n"));
             ExitStatus::CouldNotRun.into()
         }
     }

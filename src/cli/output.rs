@@ -1,7 +1,7 @@
 //! Writing results: files appear whole or not at all.
 
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, bail};
 
@@ -19,7 +19,8 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 /// Writes several files, each to a file or to standard output where the name is `-`.
 ///
 /// All bytes go to temporary files beside the targets first, which then take their places: where one of them cannot be
-/// written, none appears.
+/// written, none appears. A symbolic link stays one, and what it leads to is written. Pipes and devices have no place to
+/// take: they are written to last, as standard output is.
 ///
 /// # Errors
 /// Names the file.
@@ -27,69 +28,151 @@ pub(super) fn write_together(contents: &[Content]) -> Result<()> {
     let cannot =
         |path: &Path| format!("{}: cannot be written; is the folder there, and may you write to it?", path.display());
     let mut staged = Vec::new();
-    for &(path, bytes) in contents.iter().filter(|(path, _)| *path != Path::new("-")) {
-        // The reason alone: the name of the temporary file would only confuse.
-        let file = stage(path, bytes).map_err(|e| std::io::Error::from(e.kind())).with_context(|| cannot(path))?;
-        staged.push((path, file));
+    let mut streams = Vec::new();
+    for &(path, bytes) in contents {
+        match stage(path, bytes).with_context(|| cannot(path))? {
+            Staged::Stream => streams.push((path, bytes)),
+            Staged::File { file, target } => staged.push((path, file, target)),
+        }
     }
-    for (path, file) in staged {
-        file.persist(path).map_err(|e| e.error).with_context(|| cannot(path))?;
+    for (path, file, target) in staged {
+        file.persist(target).map_err(|e| e.error).with_context(|| cannot(path))?;
     }
-    for (_, bytes) in contents.iter().filter(|(path, _)| *path == Path::new("-")) {
-        let mut out = std::io::stdout().lock();
-        out.write_all(bytes).and_then(|()| out.flush()).context("standard output")?;
+    for (path, bytes) in streams {
+        if path == Path::new("-") {
+            print_bytes(bytes)?;
+        } else {
+            std::fs::OpenOptions::new()
+                .write(true)
+                .open(path)
+                .and_then(|mut stream| stream.write_all(bytes))
+                .with_context(|| cannot(path))?;
+        }
     }
     Ok(())
 }
 
-/// Refuses to write a result over what it is made from, or two results into one file.
-///
-/// # Errors
-/// Names the file.
-pub(super) fn refuse_overwriting(input: &Path, targets: &[&Path]) -> Result<()> {
-    let same = |a: &Path, b: &Path| {
-        a != Path::new("-") && (a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b))
+/// Content on its way.
+enum Staged {
+    /// A temporary file, and the place that it is to take.
+    File { file: tempfile::NamedTempFile, target: PathBuf },
+    /// The target is standard output, a pipe or a device.
+    Stream,
+}
+
+/// A temporary file beside the file that `path` leads to, holding `bytes`, with the permissions of what it replaces.
+fn stage(path: &Path, bytes: &[u8]) -> std::io::Result<Staged> {
+    if path == Path::new("-") {
+        return Ok(Staged::Stream);
+    }
+    let replaced = match std::fs::symlink_metadata(path) {
+        Ok(found) if found.is_symlink() => Some(std::fs::metadata(path)?),
+        Ok(found) => Some(found),
+        Err(_) => None,
     };
-    for (i, target) in targets.iter().enumerate() {
-        if same(input, target) {
-            bail!("{}: this is the file that is read; name another one with -o", target.display());
-        }
-        if targets[..i].iter().any(|t| same(t, target)) {
-            bail!("{}: program and picture would be one file; name the program .nc with -o", target.display());
-        }
+    // A folder in the target's place would be noticed only once other files have appeared.
+    if replaced.as_ref().is_some_and(|found| found.is_dir()) {
+        return Err(std::io::ErrorKind::IsADirectory.into());
     }
-    Ok(())
-}
-
-/// A temporary file beside `path` that holds `bytes`.
-fn stage(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::NamedTempFile> {
-    let folder = match path.parent() {
+    if replaced.as_ref().is_some_and(|found| !found.is_file()) {
+        return Ok(Staged::Stream);
+    }
+    let target = if replaced.is_some() { path.canonicalize()? } else { path.to_owned() };
+    let folder = match target.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
-    // A folder in the target's place would be noticed only once other files have appeared.
-    if path.is_dir() {
-        return Err(std::io::ErrorKind::IsADirectory.into());
-    }
-    let mut file = tempfile::Builder::new().prefix(".clopen-").tempfile_in(folder)?;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".clopen-");
+    // Temporary files are private; a result is what the user's mask makes of any new file.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.tempfile_in(folder)?;
     file.write_all(bytes)?;
-    allow_reading(file.as_file())?;
-    Ok(file)
-}
-
-/// Temporary files are private; a result is not.
-#[cfg(unix)]
-fn allow_reading(file: &std::fs::File) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt as _;
-    file.set_permissions(std::fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn allow_reading(_: &std::fs::File) -> std::io::Result<()> {
-    Ok(())
+    if let Some(found) = replaced {
+        if found.permissions().readonly() {
+            return Err(std::io::ErrorKind::PermissionDenied.into());
+        }
+        file.as_file().set_permissions(found.permissions())?;
+    }
+    Ok(Staged::File { file, target })
 }
 
 /// Prints to standard output; a reader that went away is no error.
-pub(super) fn print(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+///
+/// # Errors
+/// Where standard output takes no more, as on a full disk.
+pub(super) fn print(text: &str) -> Result<()> {
+    print_bytes(text.as_bytes())
+}
+
+fn print_bytes(bytes: &[u8]) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error).context("standard output"),
+        _ => Ok(()),
+    }
+}
+
+/// Says something on standard error, which may be closed: then there is nobody to tell.
+pub(super) fn say(text: &str) {
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Refuses to write over what is being read.
+///
+/// # Errors
+/// Names the file and says what to do.
+pub(super) fn keep_input(input: &Path, target: &Path) -> Result<()> {
+    let is_same = match (input.canonicalize(), target.canonicalize()) {
+        (Ok(input), Ok(target)) => input == target,
+        _ => false,
+    };
+    if is_same {
+        bail!(
+            "{}: this is the file that is read, and it would be written over: name another with -o",
+            target.display()
+        );
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_read_is_not_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let input = folder.path().join("part.svg");
+        std::fs::write(&input, "drawing").unwrap();
+        assert!(keep_input(&input, &folder.path().join("./part.svg")).is_err());
+        assert!(keep_input(&input, &folder.path().join("part.nc")).is_ok());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_permissions_stay() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        std::fs::write(&file, "old").unwrap();
+        std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o640)).unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write(&link, b"new").unwrap();
+        assert!(link.symlink_metadata().unwrap().is_symlink());
+        assert_eq!(std::fs::read(&file).unwrap(), b"new");
+        assert_eq!(file.metadata().unwrap().permissions().mode() & 0o777, 0o640);
+    }
+
+    /// A socket stands for pipes and devices: making one needs neither another program nor rights.
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("socket");
+        let _socket = std::os::unix::net::UnixListener::bind(&path).unwrap();
+        assert!(write(&path, b"drawing").is_err(), "a socket cannot be opened");
+        assert!(!path.symlink_metadata().unwrap().is_file());
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, bail};
 use clap::Args;
 
 use super::ExitStatus;
@@ -10,7 +10,7 @@ use super::input::{self, ReadArgs};
 use super::output;
 use crate::gcode;
 use crate::preview::{self, DEFAULT_SIZE, Scene};
-use crate::units::{DrawingScale, Length};
+use crate::units::Length;
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
@@ -25,11 +25,11 @@ pub(super) struct PreviewArgs {
     #[arg(long, value_name = "PIXELS", default_value_t = DEFAULT_SIZE)]
     size: u32,
     /// Diameter of the tool, for a program that does not say it
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     tool_diameter: Option<Length>,
-    /// z of the top of the stock, in millimetres, for a program
-    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
-    stock_top: f64,
+    /// z of the top of the stock, for a program
+    #[arg(long, value_name = "LENGTH", default_value_t = Length::Millimetres(0.0), allow_hyphen_values = true)]
+    stock_top: Length,
     #[command(flatten)]
     reading: ReadArgs,
 }
@@ -43,11 +43,11 @@ pub(super) fn run(args: &PreviewArgs) -> Result<ExitStatus> {
     // A drawing begins with markup, whatever its name; a program never does.
     let is_svg = bytes.trim_ascii_start().first() == Some(&b'<') || bytes.starts_with(b"\xef\xbb\xbf<");
     let target = args.output.clone().unwrap_or_else(|| beside(&args.file, is_svg));
-    output::refuse_overwriting(&args.file, &[&target])?;
+    output::keep_input(&args.file, &target)?;
     let picture = if is_svg { drawing(args, &bytes)? } else { program(args, bytes)? };
     output::write(&target, &picture)?;
     if target != Path::new("-") {
-        eprintln!("wrote {}", target.display());
+        output::say(&format!("wrote {}\n", target.display()));
     }
     Ok(ExitStatus::Done)
 }
@@ -65,10 +65,13 @@ fn program(args: &PreviewArgs, bytes: Vec<u8>) -> Result<Vec<u8>> {
     let text = input::into_text(bytes, &args.file)?;
     let name = || args.file.display().to_string();
     let program = gcode::read(&text).with_context(name)?;
-    let no_drawing = DrawingScale { mm_per_unit: None, diagonal: 0.0 };
-    let typed = args.tool_diameter.map(|d| d.to_millimetres(&no_drawing)).transpose().context("--tool-diameter")?;
+    let stock_top = input::millimetres(args.stock_top, "--stock-top")?;
+    let typed = args.tool_diameter.map(|d| input::millimetres(d, "--tool-diameter")).transpose()?;
+    if let Some(diameter) = typed.filter(|d| *d <= 0.0) {
+        bail!("--tool-diameter is {diameter} mm: it must be above zero");
+    }
     let diameter = typed.or(program.tool_diameter());
-    let scene = Scene { tool_radius: diameter.map(|d| 0.5 * d), stock_top: args.stock_top, ..Scene::new(&program) };
+    let scene = Scene { tool_radius: diameter.map(|d| 0.5 * d), stock_top, ..Scene::new(&program) };
     preview::program(&scene, args.size).with_context(name)
 }
 
