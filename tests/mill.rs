@@ -186,13 +186,16 @@ fn a_lost_feature_is_named_and_fails_with_the_program_still_written() {
     assert_eq!(output.status.code(), Some(1));
     let said = stdout(&output);
     // In the machine's coordinates: the corner of the part is its origin, y points up.
-    assert!(said.contains("hole of diameter 2.00 mm at (16.000, 15.000)"), "{said}");
+    assert!(
+        said.contains("hole 2.00 mm wide at (16.000, 15.000): filled; the tool of 3.175 mm does not fit"),
+        "{said}"
+    );
     assert!(said.contains("--accept-losses"), "{said}");
     assert_eq!(names(here.path()), ["plate.nc", "plate.png", "plate.svg"]);
 
     let accepted = mill(here.path(), &["plate.svg", "--accept-losses"]);
     assert_eq!(accepted.status.code(), Some(0));
-    assert!(stdout(&accepted).contains("hole of diameter"));
+    assert!(stdout(&accepted).contains("hole 2.00 mm wide"));
     let smaller = mill(here.path(), &["plate.svg", "--tool-diameter", "1.5mm", "--path-radius", "0"]);
     assert_eq!(smaller.status.code(), Some(0), "{}", stdout(&smaller));
     assert!(stdout(&smaller).contains("lost            nothing"));

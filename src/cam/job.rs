@@ -38,6 +38,8 @@ pub const DEFAULT_ENTRY: Entry = Entry::Ramp;
 
 /// Largest length a job may name, in millimetres: beyond any machine, and what the writer's columns hold.
 const LARGEST_LENGTH: f64 = 10_000.0;
+/// Smallest tool and depth of a job, in millimetres: a few times what a machine resolves.
+const SMALLEST_LENGTH: f64 = 0.01;
 /// Largest number of passes: more is a slip of the unit.
 const LARGEST_PASS_COUNT: f64 = 1000.0;
 /// Largest spindle speed in revolutions a minute, feed in mm/min, acceleration in mm/s², and dwell in seconds.
@@ -182,6 +184,16 @@ pub enum JobProblem {
         /// The most it may be.
         limit: f64,
     },
+    /// Below what a machine resolves.
+    #[error("{field} is {value} mm: at least {limit} mm makes sense; is the unit right?")]
+    TooSmall {
+        /// Which value.
+        field: &'static str,
+        /// What it is, in millimetres.
+        value: f64,
+        /// The least it may be, in millimetres.
+        limit: f64,
+    },
     /// The tool would travel through the stock.
     #[error(
         "safe-height is {safe_height} mm, not above stock-top, {stock_top} mm: \
@@ -258,6 +270,18 @@ impl Job {
         above_zero("tool-diameter", self.tool_diameter, LARGEST_LENGTH);
         above_zero("depth", self.depth, LARGEST_LENGTH);
         above_zero("depth-per-pass", self.depth_per_pass, LARGEST_LENGTH);
+        for (field, value) in [("tool-diameter", self.tool_diameter), ("depth", self.depth)] {
+            if value > 0.0 && value < SMALLEST_LENGTH {
+                problems.push(JobProblem::TooSmall { field, value, limit: SMALLEST_LENGTH });
+            }
+        }
+        let mut above_zero = |field, value: f64, limit: f64| {
+            if !(value.is_finite() && value > 0.0) {
+                problems.push(JobProblem::NotPositive { field, value });
+            } else if value > limit {
+                problems.push(JobProblem::TooLarge { field, value, limit });
+            }
+        };
         above_zero("feed", self.feed.mm_per_min(), LARGEST_RATE);
         above_zero("plunge-feed", self.plunge_feed.mm_per_min(), LARGEST_RATE);
         above_zero("spindle-speed", self.spindle_speed, LARGEST_RATE);

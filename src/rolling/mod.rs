@@ -17,7 +17,7 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Segment, Vector};
+use crate::plane::{BoundaryIndex, Bounds, Point, Region, Segment, Vector};
 use crate::units::Radius;
 
 /// What closing means where components come near each other.
@@ -165,14 +165,4 @@ fn exact_shift(bounds: &Bounds) -> Vector {
         (center / grain).round() * grain
     };
     Vector::new(axis(bounds.min.x, bounds.max.x), axis(bounds.min.y, bounds.max.y))
-}
-
-/// The smallest radius at which the region bends towards the empty side, infinite where it does not: what a disk that
-/// rolls on the right of it has to fit into. Corners count as zero.
-pub fn smallest_concave_radius(region: &Region) -> f64 {
-    let arcs = region.segments().filter_map(|s| match s.link {
-        Link::Arc(arc) if arc.turn == crate::plane::Turn::Right => Some(arc.radius),
-        _ => None,
-    });
-    arcs.fold(f64::INFINITY, f64::min)
 }

@@ -125,7 +125,11 @@ fn the_path_does_not_pass_a_neck() {
         // Where it does not pass it follows the resting disk, which is farther from the neck.
         assert!((near - smallest).abs() < 1e-9, "{radius} {smallest}: {near}");
         assert!(far < if passes { smallest } else { radius } + 1e-9, "{radius} {smallest}: {far}");
-        assert!(crate::rolling::smallest_concave_radius(&path) > radius - smallest - 1e-9);
+        let concave = path.segments().filter_map(|s| match s.link {
+            Link::Arc(Arc { radius, turn: Turn::Right, .. }) => Some(radius),
+            _ => None,
+        });
+        assert!(concave.fold(f64::INFINITY, f64::min) > radius - smallest - 1e-9);
         if radius > smallest {
             for ring in &path.rings {
                 for i in 0..ring.len() {

@@ -129,3 +129,38 @@ fn is_circular(source: &Source, node: Node, target: Node) -> bool {
     }
     false
 }
+
+/// Refuses shapes with coordinates that nobody means, before anything is computed from them: curves through such places
+/// would be divided without end.
+///
+/// # Errors
+/// Names the first such shape.
+pub(super) fn refuse_huge(source: &Source) -> Result<(), ReadError> {
+    let suspects = source.document.descendants().filter(|n| n.attributes().any(|a| may_be_huge(a.value())));
+    for node in suspects {
+        let Some(shape) = shape::read(node) else { continue };
+        if let Some(value) = largest(shape.outline.points().flat_map(|p| [p.x, p.y])) {
+            return Err(ReadError::Huge { place: source.place(node), value });
+        }
+    }
+    Ok(())
+}
+
+/// Whether some number in `text` has an exponent, or as many digits before its point as the largest coordinate: few
+/// attributes do, and only those are read twice.
+fn may_be_huge(text: &str) -> bool {
+    const DIGITS: usize = 9;
+    let (mut digits, mut after_point) = (0, false);
+    for b in text.bytes() {
+        match b {
+            b'0'..=b'9' => digits += usize::from(!after_point),
+            b'e' | b'E' if digits > 0 || after_point => return true,
+            b'.' => after_point = true,
+            _ => (digits, after_point) = (0, false),
+        }
+        if digits > DIGITS {
+            return true;
+        }
+    }
+    false
+}

@@ -79,6 +79,7 @@ fn read_with(bytes: &[u8], options: &ReadOptions, other: Option<&Drawing>) -> Re
     let document = document::parse(&named)?;
     let root = document.root_element();
     let source = Source::new(&document, &prefix);
+    leftovers::refuse_huge(&source)?;
     let page = Page::of_root(root);
     let tree = fonts::tree(&document, options)?.map_err(|error| refusal(error, source.place(root).line))?;
 
