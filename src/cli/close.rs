@@ -184,8 +184,14 @@ impl Report {
             text += &format!("{what} {}{more}\n", places.join(" "));
         }
         if !self.proved {
-            text +=
-                "NOT PROVED: rounding left contradictions; compare with clopen check, or change the radius slightly\n";
+            text += match self.topology {
+                Topology::Keep => {
+                    "NOT PROVED: outlines come too near to each other to be kept apart; --topology merge has an answer\n"
+                }
+                Topology::Merge => {
+                    "NOT PROVED: rounding left contradictions; compare with clopen check, or change the radius slightly\n"
+                }
+            };
         }
         text
     }
