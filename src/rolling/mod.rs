@@ -17,7 +17,7 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{BoundaryIndex, Bounds, Point, Region, Segment, Vector};
+use crate::plane::{BoundaryIndex, Bounds, Point, Region, Segment, Vector, Vertex};
 use crate::units::Radius;
 
 /// What closing means where components come near each other.
@@ -122,11 +122,15 @@ fn without_absorbed(scanned: Region, far_is_solid: bool) -> (Region, Vec<Point>)
     let mut absorbed = vec![];
     let mut kept = vec![];
     for ring in &scanned.rings {
-        let Some(vertex) = ring.vertices.first() else { continue };
+        let Some(first) = ring.vertices.first() else { continue };
+        let is_outer = ring.area() > 0.0;
         // What the other rings make of the place: an outer ring belongs in empty space, a hole in solid.
-        let around = index.winding_number(vertex.point) - ring.winding_number(vertex.point) + i32::from(far_is_solid);
-        let belongs = if ring.area() > 0.0 { around <= 0 } else { around > 0 };
-        if belongs { kept.push(ring.clone()) } else { absorbed.push(vertex.point) }
+        let belongs = |v: &Vertex| {
+            let around = index.winding_number(v.point) - ring.winding_number(v.point) + i32::from(far_is_solid);
+            if is_outer { around <= 0 } else { around > 0 }
+        };
+        // A ring that is swallowed in part only still bounds something.
+        if ring.vertices.iter().any(belongs) { kept.push(ring.clone()) } else { absorbed.push(first.point) }
     }
     (Region::new(kept), absorbed)
 }
