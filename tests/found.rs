@@ -1,4 +1,5 @@
-//! Faults that random shapes have found, each reduced to the smallest shape that shows it: none may come back.
+//! Faults that random shapes have found, each reduced to the smallest shape that shows it: none may come back. Three are
+//! not mended yet, and are held to saying so.
 
 mod laws;
 
@@ -17,6 +18,22 @@ fn arc(x: f64, y: f64, center_x: f64, center_y: f64, radius: f64, turn: Turn) ->
 
 /// Every law that needs nothing but the result, in both meanings; and the reference.
 fn obeys(input: &Region, r: f64, operation: Operation) {
+    laws_hold(input, r, operation, Mend::Whole);
+}
+
+/// Faults that are not mended yet: the result must at least say of itself that it does not stand.
+fn does_not_fail_silently(input: &Region, r: f64, operation: Operation) {
+    laws_hold(input, r, operation, Mend::SaidSo);
+}
+
+/// How far a fault is mended.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Mend {
+    Whole,
+    SaidSo,
+}
+
+fn laws_hold(input: &Region, r: f64, operation: Operation, mend: Mend) {
     assert_eq!(laws::crossing(input, r), None, "the input itself is sound");
     let run = if operation == Operation::Close { rolling::close } else { rolling::open };
     let merged = run(input, laws::radius(r), Topology::Merge);
@@ -24,16 +41,19 @@ fn obeys(input: &Region, r: f64, operation: Operation) {
     let far = input.bounds().max.coords.amax().max(input.bounds().min.coords.amax());
     for (mode, outcome) in [("merge", &merged), ("keep", &kept)] {
         assert!(laws::is_finite(&outcome.region), "{mode}");
-        // A result that says of itself that it does not stand is no silent fault.
-        if outcome.contradictions > 0 {
+        if mend == Mend::SaidSo && outcome.contradictions > 0 {
             continue;
         }
         let (violation, place) = laws::containment(input, &outcome.region, operation, r);
         assert!(violation <= 1e-9 * r + 1e-15 * far, "{mode}: containment fails by {} r at {place}", violation / r);
     }
-    if merged.contradictions > 0 {
-        return;
+    if mend == Mend::SaidSo {
+        assert!(merged.contradictions + kept.contradictions > 0, "this stands now: ask all of it");
+        if merged.contradictions > 0 {
+            return;
+        }
     }
+    assert_eq!(merged.contradictions, 0);
     assert_eq!(laws::crossing(&merged.region, r), None);
     let reference = reference::closing(input, laws::radius(r), operation).unwrap();
     let (distance, place) = laws::hausdorff(&merged.region, &reference.region, r);
@@ -523,7 +543,7 @@ fn a_thin_part_with_concave_arcs_vanishes() {
 
 /// The outline of a portrait, the solid opened along the curve: a thin fold of many links at the end of a wedge.
 #[test]
-fn keeping_opens_a_fold_at_the_end_of_a_wedge_without_adding_to_it() {
+fn keeping_a_fold_at_the_end_of_a_wedge_is_not_answered_silently() {
     let input = Region::new(vec![Ring {
         vertices: vec![
             line(14.329524386562763, -22.436678062042066),
@@ -540,7 +560,7 @@ fn keeping_opens_a_fold_at_the_end_of_a_wedge_without_adding_to_it() {
             line(22.458999999999993, -22.067),
         ],
     }]);
-    obeys(&input, 0.6586619477807863, Operation::Open);
+    does_not_fail_silently(&input, 0.6586619477807863, Operation::Open);
 }
 #[test]
 fn a_star_with_bulges() {
@@ -1031,7 +1051,7 @@ fn keeping_bulges_closed_before() {
             line(2097140.8433538817, -2097150.7126966412),
         ],
     }]);
-    obeys(&input, 1.8140372301847087, Operation::Open);
+    does_not_fail_silently(&input, 1.8140372301847087, Operation::Open);
 }
 
 #[test]
@@ -1102,5 +1122,5 @@ fn keeping_a_spiral_closed_before() {
             line(2097157.253076895, -2097152.6291875043),
         ],
     }]);
-    obeys(&input, 1.8953560151489803, Operation::Open);
+    does_not_fail_silently(&input, 1.8953560151489803, Operation::Open);
 }
