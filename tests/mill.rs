@@ -235,6 +235,7 @@ fn bad_input_gets_one_sentence_and_leaves_nothing() {
     refuse(&["plate.svg", "--safe-height", "-1"], &["safe-height", "stock-top"]);
     refuse(&["plate.svg", "--dialect", "fanuc"], &["fanuc", "grbl", "linuxcnc"]);
     refuse(&["plate.svg", "--job", "job.toml"], &["job.toml", "tool-diamter"]);
+    refuse(&["plate.svg", "--tool-diameter", "500mm"], &["plate.svg", "larger than the whole part", "scale"]);
     refuse(&["plate.svg", "--side", "inside", "--tool-diameter", "50mm"], &["plate.svg", "tool"]);
     refuse(&["plate.svg", "-o", "no/such/folder/plate.nc"], &["no/such/folder/plate.nc", "cannot be written"]);
 }

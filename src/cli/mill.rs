@@ -262,6 +262,14 @@ fn read_job(args: &MillArgs, drawing: &Drawing) -> Result<Job> {
 
 /// Closes what stays by the tool, and plans the way around it.
 fn make_plan(args: &MillArgs, part: &Region, job: &Job) -> Result<Plan> {
+    let size = part.bounds().diagonal();
+    if job.tool_diameter > size {
+        bail!(
+            "the tool of {} mm is larger than the whole part ({size:.1} mm across): is the unit of --tool-diameter right, \
+             and the scale of the drawing?",
+            job.tool_diameter
+        );
+    }
     let stays = job.side.kept_material(part);
     let radius = job.closing_radius();
     // On the outline with sharp turns allowed nothing is closed.
