@@ -35,8 +35,9 @@ const CAVALIER_LOOSE: [f64; 3] = [1e-5, 1e-4, 1e-4];
 const CAVALIER_TIGHT: [f64; 3] = [1e-10, 1e-9, 1e-8];
 const CAVALIER_ALLOWS: f64 = 4e-4;
 
-/// A method that took longer than this is left out of the rows of the same series that are longer.
-const PATIENCE_MS: f64 = 15_000.0;
+/// A method that took longer than this is left out of the rows of the same series that are longer: they are so by ten
+/// times, and time, and for some memory, grows with the square.
+const PATIENCE_MS: f64 = 500.0;
 
 /// Rounds at least, of which methods that use up their share of the time are spared all but three.
 const FEWEST_ROUNDS: usize = 15;
@@ -164,7 +165,7 @@ fn table(title: &str, inputs: Vec<Input>, seconds: f64) {
                 continue;
             };
             let (best, median) = (milliseconds[0], milliseconds[milliseconds.len() / 2]);
-            patient[k] &= best < PATIENCE_MS / 10.0;
+            patient[k] &= best < PATIENCE_MS;
             let ratio = if k == 0 { format!("{} rounds", milliseconds.len()) } else { format!("{:.1} x", best / own) };
             let mark = wrong.map_or(String::new(), |d| format!(" WRONG {d:.0e}"));
             print!(" {:>30}", format!("{best:.2}/{median:.2} {ratio}{mark}"));
