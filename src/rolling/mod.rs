@@ -17,7 +17,7 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{BoundaryIndex, Bounds, Point, Region, Segment, Vector, Vertex};
+use crate::plane::{BoundaryIndex, Bounds, Point, Region, Ring, Segment, Vector, Vertex};
 use crate::units::Radius;
 
 /// What closing means where components come near each other.
@@ -26,7 +26,8 @@ use crate::units::Radius;
 pub enum Topology {
     /// The morphological closing, as a cutter sees it: components merge, holes fill, narrow inlets close.
     Merge,
-    /// The flow's own limit: every ring by itself, measured along the curve.
+    /// The flow's own limit: every ring by itself, measured along the curve. A ring that runs into itself so that no disk
+    /// continues along it is closed in the plane, by itself.
     Keep,
 }
 
@@ -73,7 +74,8 @@ pub fn open(region: &Region, radius: Radius, topology: Topology) -> Outcome {
 
 fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
     // What an unfinished scan leaves undone the merge does.
-    let (prepared, _) = scan_rings(region, r, scan::Mode::Safe, resolution);
+    let prepared =
+        Region::new(region.rings.iter().flat_map(|ring| scan_ring(ring, r, scan::Mode::Safe, resolution).0).collect());
     let merged = merge::merge(&prepared, region, r, resolution);
     let mut contradictions = merged.contradictions;
     // So far from the origin that directions are uncertain, the result is looked at once more.
@@ -85,7 +87,7 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
 }
 
 fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
-    let (scanned, unfinished) = scan_rings(input, r, scan::Mode::Geodesic, resolution);
+    let (scanned, unfinished) = scan_along(input, r, resolution);
     let mut differences = merge::differences(&scanned, input, r, resolution);
     differences.extend(unfinished);
     let (region, absorbed) = without_absorbed(scanned, input.area() < 0.0);
@@ -135,22 +137,34 @@ fn without_absorbed(scanned: Region, far_is_solid: bool) -> (Region, Vec<Point>)
     (Region::new(kept), absorbed)
 }
 
-/// The scanned rings, and a point of every ring whose scan did not come to its end.
-fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> (Region, Vec<Point>) {
-    let mut unfinished = vec![];
-    let rings = region.rings.iter().filter(|ring| ring.len() > 1).filter_map(|ring| {
-        let scan::Scan { ring: scanned, finished } = scan::scan(ring, r, mode, resolution);
-        if !finished {
-            unfinished.extend(ring.vertices.first().map(|v| v.point));
+/// Every ring rolled along by itself, and a point of every ring where that had no end.
+///
+/// A curve that runs into itself can come to a place where no disk continues along it without cutting into the solid.
+/// What the flow makes of such a ring is not told by any arc; the closing of that ring alone is where it cannot go beyond.
+fn scan_along(input: &Region, r: f64, resolution: f64) -> (Region, Vec<Point>) {
+    let (mut rings, mut unfinished) = (vec![], vec![]);
+    for ring in &input.rings {
+        let (scanned, finished) = scan_ring(ring, r, scan::Mode::Geodesic, resolution);
+        if finished {
+            rings.extend(scanned);
+            continue;
         }
-        if !scanned.is_empty() {
-            Some(scanned)
-        } else {
-            // A hole that vanishes is filled; material never vanishes in a closing.
-            (ring.area() > 0.0).then(|| ring.clone())
-        }
-    });
-    (Region::new(rings.collect()), unfinished)
+        unfinished.extend(ring.vertices.first().map(|v| v.point));
+        let alone = close_merged(&Region::new(vec![ring.clone()]), r, resolution);
+        if alone.contradictions == 0 { rings.extend(alone.region.rings) } else { rings.extend(scanned) }
+    }
+    (Region::new(rings), unfinished)
+}
+
+/// The scanned ring, and whether the scan came to its end; nothing of a ring without links or of a hole that is filled.
+fn scan_ring(ring: &Ring, r: f64, mode: scan::Mode, resolution: f64) -> (Option<Ring>, bool) {
+    if ring.len() < 2 {
+        return (None, true);
+    }
+    let scan::Scan { ring: scanned, finished } = scan::scan(ring, r, mode, resolution);
+    // Material never vanishes in a closing.
+    let scanned = if scanned.is_empty() && ring.area() > 0.0 { ring.clone() } else { scanned };
+    (Some(scanned).filter(|ring| !ring.is_empty()), finished)
 }
 
 /// A displacement that brings the region near the origin without rounding any coordinate, or zero.
