@@ -18,7 +18,7 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{BoundaryIndex, Bounds, Point, Region, Segment, Vector, Vertex};
+use crate::plane::{BoundaryIndex, Bounds, Point, Region, Ring, Segment, Vector, Vertex};
 use crate::units::Radius;
 
 /// What closing means where components come near each other.
@@ -27,7 +27,8 @@ use crate::units::Radius;
 pub enum Topology {
     /// The morphological closing, as a cutter sees it: components merge, holes fill, narrow inlets close.
     Merge,
-    /// The flow's own limit: every ring by itself, measured along the curve.
+    /// The flow's own limit: every ring by itself, measured along the curve. A ring that runs into itself so that no disk
+    /// continues along it is closed in the plane, by itself.
     Keep,
 }
 
@@ -74,7 +75,10 @@ pub fn open(region: &Region, radius: Radius, topology: Topology) -> Outcome {
 
 fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
     // What an unfinished scan leaves undone the merge does.
-    let prepared = scan_rings(region, r, scan::Mode::Safe, resolution);
+    let mut prepared = Scanned::default();
+    for ring in &region.rings {
+        prepared.extend(scan_ring(ring, r, scan::Mode::Safe, resolution));
+    }
     let merged = merge::merge(&prepared, region, r, resolution);
     let mut contradictions = merged.contradictions;
     // So far from the origin that directions are uncertain, the result is looked at once more.
@@ -86,9 +90,9 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
 }
 
 fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
-    let scanned = scan_rings(input, r, scan::Mode::Geodesic, resolution);
+    let (scanned, unfinished) = scan_along(input, r, resolution);
     let mut differences = merge::differences(&scanned, input, r, resolution);
-    differences.extend(scanned.unfinished);
+    differences.extend(unfinished);
     let (region, absorbed) = without_absorbed(scanned.region, input.area() < 0.0);
     differences.extend(absorbed);
     if differences.is_empty() {
@@ -137,31 +141,60 @@ fn without_absorbed(scanned: Region, far_is_solid: bool) -> (Region, Vec<Point>)
 }
 
 /// The rings of a region after the scan.
+#[derive(Default)]
 struct Scanned {
     region: Region,
     /// Of every ring, which vertices are vertices of the input, unmoved.
     still: Vec<Vec<bool>>,
-    /// A point of every ring whose scan did not come to its end.
-    unfinished: Vec<Point>,
 }
 
-fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> Scanned {
-    let mut scanned = Scanned { region: Region::default(), still: vec![], unfinished: vec![] };
-    for ring in region.rings.iter().filter(|ring| ring.len() > 1) {
-        let scan = scan::scan(ring, r, mode, resolution);
-        if !scan.finished {
-            scanned.unfinished.extend(ring.vertices.first().map(|v| v.point));
-        }
+impl Scanned {
+    /// Adds a scanned ring; nothing of a hole that is filled.
+    fn extend(&mut self, scan: scan::Scan) {
         if !scan.ring.is_empty() {
-            scanned.region.rings.push(scan.ring);
-            scanned.still.push(scan.still);
-        } else if ring.area() > 0.0 {
-            // A hole that vanishes is filled; material never vanishes in a closing.
-            scanned.region.rings.push(ring.clone());
-            scanned.still.push(vec![true; ring.len()]);
+            self.region.rings.push(scan.ring);
+            self.still.push(scan.still);
         }
     }
-    scanned
+}
+
+/// Every ring rolled along by itself, and a point of every ring where that had no end.
+///
+/// A curve that runs into itself can come to a place where no disk continues along it without cutting into the solid.
+/// What the flow makes of such a ring is not told by any arc; the closing of that ring alone is where it cannot go beyond.
+fn scan_along(input: &Region, r: f64, resolution: f64) -> (Scanned, Vec<Point>) {
+    let (mut scanned, mut unfinished) = (Scanned::default(), vec![]);
+    for ring in &input.rings {
+        let scan = scan_ring(ring, r, scan::Mode::Geodesic, resolution);
+        if scan.finished {
+            scanned.extend(scan);
+            continue;
+        }
+        unfinished.extend(ring.vertices.first().map(|v| v.point));
+        let alone = close_merged(&Region::new(vec![ring.clone()]), r, resolution);
+        if alone.contradictions > 0 {
+            scanned.extend(scan);
+            continue;
+        }
+        for ring in alone.region.rings {
+            scanned.still.push(vec![false; ring.len()]);
+            scanned.region.rings.push(ring);
+        }
+    }
+    (scanned, unfinished)
+}
+
+/// The scanned ring; an empty one of a ring without links and of a hole that is filled.
+fn scan_ring(ring: &Ring, r: f64, mode: scan::Mode, resolution: f64) -> scan::Scan {
+    if ring.len() < 2 {
+        return scan::Scan { ring: Ring::default(), still: vec![], finished: true };
+    }
+    let scan = scan::scan(ring, r, mode, resolution);
+    if scan.ring.is_empty() && ring.area() > 0.0 {
+        // Material never vanishes in a closing.
+        return scan::Scan { ring: ring.clone(), still: vec![true; ring.len()], ..scan };
+    }
+    scan
 }
 
 /// A displacement that brings the region near the origin without rounding any coordinate, or zero.

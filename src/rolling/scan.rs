@@ -109,6 +109,8 @@ struct Roller<'a> {
     mode: Mode,
     /// [`MIN_EXCESS`], or what the rounding of coordinates does to the direction of an arc of the disk.
     min_excess: f64,
+    /// A disk is clear of what is not nearer to its centre than this: [`CLEAR`], or the rounding of coordinates.
+    clear: f64,
     nodes: Vec<Node>,
     queue: VecDeque<u32>,
     alive: usize,
@@ -162,7 +164,8 @@ impl<'a> Roller<'a> {
             });
         }
         let min_excess = MIN_EXCESS + ROUNDING_STEPS * resolution / r;
-        Roller { input, r, mode, min_excess, nodes, queue: VecDeque::new(), alive: n, head: 0, exhausted: false }
+        let clear = r * (1.0 - CLEAR) - ROUNDING_STEPS * resolution;
+        Roller { input, r, mode, min_excess, clear, nodes, queue: VecDeque::new(), alive: n, head: 0, exhausted: false }
     }
 
     fn node(&self, i: u32) -> &Node {

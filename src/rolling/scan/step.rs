@@ -1,13 +1,19 @@
 //! What to do at one node: where a new arc of the disk goes, decided before anything is changed.
 
-use super::{CLEAR, HIDDEN, LinkKind, MIN_EXCESS, MIN_LINK, Meets, Mode, Roller, Step};
-use crate::plane::{Point, right_normal};
+use super::{HIDDEN, LinkKind, MIN_EXCESS, MIN_LINK, Meets, Mode, Roller, Step};
+use crate::plane::{Point, Segment, left_normal, right_normal};
 use crate::rolling::carrier::{Carrier, center_of_chord};
 use crate::rolling::excess::{HALF_TURN, half_turn_tangent};
 use crate::rolling::track::{Contact, Track};
 
 impl Roller<'_> {
     pub(super) fn decide(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
+        let step = self.propose(a, b, c, excess);
+        // What is safe has no turn beyond half a turn, and steps outward by its construction.
+        if self.mode == Mode::Safe || self.is_outward(&step, a, b, c) { step } else { Step::Refuse }
+    }
+
+    fn propose(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
         match (self.is_rolling(a), self.is_rolling(b)) {
             (true, true) => self.kill(a, b, c),
             (false, false) => {
@@ -86,7 +92,47 @@ impl Roller<'_> {
 
     /// Whether the disk about `center` holds no part of the link that leaves node `i`.
     fn is_clear(&self, center: Point, i: u32) -> bool {
-        !self.segment(i).is_nearer(center, self.r * (1.0 - CLEAR))
+        !self.segment(i).is_nearer(center, self.clear)
+    }
+
+    /// Whether a step takes nothing away from the solid: the disk of its new arc holds no part of the links that the
+    /// arc replaces, and they pass it on the solid's side.
+    ///
+    /// Where a curve has run into itself the turn at a node can exceed half a turn, and the disk can lie on the
+    /// wrong side of what it replaces.
+    fn is_outward(&self, step: &Step, a: u32, b: u32, c: u32) -> bool {
+        let at = |i: u32| self.node(i).point;
+        match *step {
+            Step::Refuse => true,
+            Step::Kill => self.replaces(&[at(a), at(b), at(c)], &[self.segment(a), self.segment(b)]),
+            Step::Cut { start, end } => self.replaces(&[start, at(b), end], &[]),
+            Step::Corner { first, start, last, end } => {
+                self.replaces(&[start, at(first), at(last), end], &[self.segment(first)])
+            }
+            Step::Back(p, meets) => {
+                let rest = Segment::line(p, at(b));
+                let links = [self.segment(b), rest];
+                self.replaces(&[p, at(b), at(c)], if meets == Meets::Tangent { &links[..1] } else { &links })
+            }
+            Step::Forward(p, meets) => {
+                let rest = Segment::line(at(b), p);
+                let links = [self.segment(a), rest];
+                self.replaces(&[at(a), at(b), p], if meets == Meets::Tangent { &links[..1] } else { &links })
+            }
+        }
+    }
+
+    /// Whether an arc of the disk from the first to the last point of `path` lies outward of it; `links` are those
+    /// that the disk does not touch by its construction.
+    fn replaces(&self, path: &[Point], links: &[Segment]) -> bool {
+        let (from, to) = (path[0], path[path.len() - 1]);
+        let center = center_of_chord(from, to, self.r);
+        let Some(u) = (to - from).try_normalize(0.0) else { return false };
+        // From the end of the path back to its start through the middle of the arc: not around the centre.
+        let middle = center + left_normal(u) * self.r;
+        let around = path.windows(2).map(|p| (p[0], p[1])).chain([(to, middle), (middle, from)]);
+        let winding: i32 = around.map(|(p, q)| Segment::line(p, q).ray_crossings(center)).sum();
+        winding == 0 && links.iter().all(|s| !s.is_nearer(center, self.clear))
     }
 
     /// The contacts of a disk that touches the links of nodes `i` and `j`, the first one before its end and the second
@@ -131,15 +177,24 @@ impl Roller<'_> {
     /// Where a disk that rests on `p` first touches `track`, looked for from its start.
     fn touch_ahead(&self, p: Point, track: &Track) -> Option<Contact> {
         let min_link = MIN_LINK * self.r;
-        let contacts = self.resting_on(p, track).into_iter().flatten().filter(|t| t.at >= -min_link);
+        let ahead = |t: &Contact| t.at >= -min_link && self.is_arc(p, t.point, track.center_at(t, self.r));
+        let contacts = self.resting_on(p, track).into_iter().flatten().filter(ahead);
         contacts.min_by(|a, b| a.at.total_cmp(&b.at))
     }
 
     /// Where a disk that rests on `p` first touches `track`, looked for from its end.
     fn touch_behind(&self, track: &Track, p: Point) -> Option<Contact> {
         let min_link = MIN_LINK * self.r;
-        let contacts = self.resting_on(p, track).into_iter().flatten().filter(|t| t.at <= track.length + min_link);
+        let behind =
+            |t: &Contact| t.at <= track.length + min_link && self.is_arc(t.point, p, track.center_at(t, self.r));
+        let contacts = self.resting_on(p, track).into_iter().flatten().filter(behind);
         contacts.max_by(|a, b| a.at.total_cmp(&b.at))
+    }
+
+    /// Whether a disk lies to the right of the way from one point of its edge to another: a disk that touches a link
+    /// beyond the point that it rests on is on the wrong side of that point.
+    fn is_arc(&self, from: Point, to: Point, center: Point) -> bool {
+        (to - from).perp(&(center - from)) <= MIN_LINK * self.r * self.r
     }
 
     /// The contacts with `track` of the disks that rest on `p`.
@@ -208,21 +263,19 @@ impl Roller<'_> {
 
     fn kill(&self, a: u32, b: u32, c: u32) -> Step {
         let (from, to) = (self.node(a).point, self.node(c).point);
-        // An arc of the input may bulge where its ends do not tell.
-        let bulges = |i: u32| {
-            matches!(self.node(i).link, LinkKind::Input(_)) && !self.is_clear(center_of_chord(from, to, self.r), i)
-        };
-        if bulges(a) || bulges(b) {
+        let chord = (to - from).norm();
+        if chord > 2.0 * self.r * (1.0 + HIDDEN) {
             return Step::Refuse;
         }
-        let chord = (to - from).norm();
-        let spans = chord <= 2.0 * self.r * (1.0 + HIDDEN);
-        let hidden = || {
-            let center = center_of_chord(from, to, self.r);
-            (self.node(b).point - center).norm() >= self.r * (1.0 - HIDDEN)
-        };
+        let center = center_of_chord(from, to, self.r);
+        // A link of the input may pass through the disk where its ends do not tell.
+        let passes = |i: u32| self.node(i).link != LinkKind::Rolling && !self.is_clear(center, i);
+        if passes(a) || passes(b) {
+            return Step::Refuse;
+        }
+        let hidden = || (self.node(b).point - center).norm() >= self.r * (1.0 - HIDDEN);
         // Where the ends coincide there is no telling on which side of them the disk lies.
         let safe = self.mode == Mode::Geodesic || (chord > MIN_EXCESS * self.r && hidden());
-        if spans && safe { Step::Kill } else { Step::Refuse }
+        if safe { Step::Kill } else { Step::Refuse }
     }
 }
