@@ -8,6 +8,9 @@ use super::{Bounds, Point};
 /// How many consecutive elements share a leaf: a balance of boxes kept against elements tested, by measurement.
 const LEAF: usize = 4;
 
+/// Levels of a tree over more elements than any memory holds: each level halves them.
+const MOST_LEVELS: usize = 48;
+
 /// Boxes over `n` elements in chain order: level 0 holds the leaves, the last level one box.
 #[derive(Clone, Debug)]
 pub struct ChainTree {
@@ -41,6 +44,44 @@ impl ChainTree {
         self.descend(|b| b.gap_squared(query), reach, visit);
     }
 
+    /// Whether `test` holds for some element whose leaf comes within `reach` of `p`, nearer subtrees first.
+    #[inline]
+    pub fn any_near(&self, p: Point, reach: f64, mut test: impl FnMut(usize) -> bool) -> bool {
+        let limit = reach * reach;
+        let Some(top) = self.levels.len().checked_sub(1).filter(|_| self.len > 0) else { return false };
+        // At most one child a level waits while the other is looked into.
+        let mut waiting = [(0u32, 0u32); MOST_LEVELS];
+        let mut count = 0;
+        let (mut level, mut index) = (top, 0);
+        loop {
+            let next = if level == 0 {
+                if (index * LEAF..((index + 1) * LEAF).min(self.len)).any(&mut test) {
+                    return true;
+                }
+                None
+            } else {
+                let below = &self.levels[level - 1];
+                let (a, b) = (2 * index, 2 * index + 1);
+                let da = below[a].distance_squared(p);
+                let db = below.get(b).map_or(f64::INFINITY, |bounds| bounds.distance_squared(p));
+                let (near, far, nearest, farthest) = if da <= db { (a, b, da, db) } else { (b, a, db, da) };
+                if farthest <= limit {
+                    waiting[count] = (level as u32 - 1, far as u32);
+                    count += 1;
+                }
+                (nearest <= limit).then_some((level - 1, near))
+            };
+            (level, index) = match next {
+                Some(next) => next,
+                None if count == 0 => return false,
+                None => {
+                    count -= 1;
+                    (waiting[count].0 as usize, waiting[count].1 as usize)
+                }
+            };
+        }
+    }
+
     #[inline]
     fn descend(
         &self,
@@ -51,8 +92,7 @@ impl ChainTree {
         if self.len == 0 {
             return;
         }
-        // Depth: two children a level, at most one of them waiting.
-        let mut stack: Vec<(usize, usize, f64)> = Vec::with_capacity(2 * self.levels.len());
+        let mut stack = Vec::with_capacity(self.levels.len());
         let top = self.levels.len() - 1;
         stack.push((top, 0, distance_squared_to(&self.levels[top][0])));
         while let Some((level, index, distance_squared)) = stack.pop() {

@@ -75,16 +75,6 @@ impl BoundaryIndex {
 
     /// Whether some element lies nearer to `p` than `limit`.
     pub fn is_nearer(&self, p: Point, limit: f64) -> bool {
-        let found = std::cell::Cell::new(false);
-        self.tree.visit_near(
-            p,
-            || if found.get() { -1.0 } else { limit },
-            |i| {
-                if !found.get() && self.segments[i].is_nearer(p, limit) {
-                    found.set(true);
-                }
-            },
-        );
-        found.get()
+        self.tree.any_near(p, limit, |i| self.segments[i].is_nearer(p, limit))
     }
 }

@@ -141,6 +141,9 @@ impl Finder<'_> {
         }
         let near = self.near;
         let mut found = |x: Point| {
+            if is_far_outside(p, x, near) || is_far_outside(q, x, near) {
+                return;
+            }
             let (Some(s), Some(t)) = (parameter(p, q, x, near), parameter(q, p, x, near)) else { return };
             let leaves = p.tangent(x).perp(&q.tangent(x)) > 0.0;
             let k = self.events.len() as u32;
@@ -190,9 +193,6 @@ fn parameter(p: &Piece, q: &Piece, x: Point, near: f64) -> Option<f64> {
         let length = d.norm();
         ((x - p.start).dot(&d) / length, length, 1.0)
     } else {
-        if is_far_outside(p, x, near) {
-            return None;
-        }
         let (u, v) = (p.start - p.center, x - p.center);
         let mut angle = (p.bend * u.perp(&v)).atan2(u.dot(&v));
         if angle < 0.0 {
@@ -218,10 +218,19 @@ fn parameter(p: &Piece, q: &Piece, x: Point, near: f64) -> Option<f64> {
     (before && after).then(|| at.clamp(0.0, extent))
 }
 
-/// Whether `x`, a point of the circle of an arc of at most half a turn, lies clearly beyond one of its ends: told by
-/// signs, without an angle.
+/// Whether `x`, a point of the carrier of `p`, lies clearly beyond one of its ends: told by signs, without a root or an
+/// angle.
+#[inline]
 fn is_far_outside(p: &Piece, x: Point, near: f64) -> bool {
-    let v = x - p.center;
-    let slack = -near * p.radius;
-    p.sweep <= PI && (p.bend * (p.start - p.center).perp(&v) < slack || p.bend * v.perp(&(p.end - p.center)) < slack)
+    if p.bend == 0.0 {
+        let d = p.end - p.start;
+        let (along, length_squared) = ((x - p.start).dot(&d), d.norm_squared());
+        let beyond = (-along).max(along - length_squared);
+        beyond > 0.0 && beyond * beyond > near * near * length_squared
+    } else {
+        let v = x - p.center;
+        let slack = -near * p.radius;
+        p.sweep <= PI
+            && (p.bend * (p.start - p.center).perp(&v) < slack || p.bend * v.perp(&(p.end - p.center)) < slack)
+    }
 }

@@ -7,7 +7,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::carrier::Carrier;
-use super::scan::follows_samples;
+use super::excess::follows_samples;
 use crate::plane::turn_angle;
 use crate::plane::{Arc, Bounds, Joint, Link, Point, Region, Ring, Segment, Turn, Vector, left_normal, right_normal};
 
@@ -182,7 +182,7 @@ impl Passage {
             && joint == Joint::Smooth
             && incoming.link == Link::Line
             && outgoing.link == Link::Line
-            && follows_samples(-turn, incoming.length(), outgoing.length(), r)
+            && follows_samples(u, v, incoming.length(), outgoing.length(), r)
         {
             // The two parallels meet: the disk passes on the curve that the chords stand for.
             let bisector = right_normal(u) + right_normal(v);

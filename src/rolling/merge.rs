@@ -13,6 +13,7 @@
 //!    where the disk touches two elements, and gives a new arc from foot to foot. Centres are solved at the exact radius.
 //! 6. In a thin neck filled from both sides the new arcs cross each other: see [`super::trim`].
 
+use super::Scanned;
 use super::carrier::Carrier;
 use super::crossings::crossings;
 use super::locus::{Locus, Piece, RING_SPREAD, TINY, Touch};
@@ -60,15 +61,15 @@ pub(super) struct Merged {
 
 /// The morphological closing of `raw` by a disk of radius `r`. `prepared` is `raw` or any region between it and its
 /// closing. Coordinates are known to `resolution`.
-pub(super) fn merge(prepared: &Region, raw: &Region, r: f64, resolution: f64) -> Merged {
+pub(super) fn merge(prepared: &Scanned, raw: &Region, r: f64, resolution: f64) -> Merged {
     let solid = Solid::new(raw);
     let mut best: Option<Merged> = None;
     for attempt in 0..ATTEMPTS {
         // Incommensurable steps: no coincidence survives two attempts.
         let shrink = SHRINK * (1.0 + 0.381_966 * f64::from(attempt));
         // The input itself is the safest thing to start from, and the slowest.
-        let start = if attempt == 0 { prepared } else { raw };
-        let merged = Attempt::new(start, &solid, r, r * (1.0 - shrink), resolution).run();
+        let (start, still) = if attempt == 0 { (&prepared.region, Some(&*prepared.still)) } else { (raw, None) };
+        let merged = Attempt::new(start, still, &solid, r, r * (1.0 - shrink), resolution).run();
         let settled = merged.contradictions == 0;
         if best.as_ref().is_none_or(|b| merged.contradictions < b.contradictions) {
             best = Some(merged);
@@ -77,16 +78,17 @@ pub(super) fn merge(prepared: &Region, raw: &Region, r: f64, resolution: f64) ->
             break;
         }
     }
-    best.unwrap_or_else(|| Merged { region: prepared.clone(), contradictions: 1, bridges: vec![] })
+    best.unwrap_or_else(|| Merged { region: prepared.region.clone(), contradictions: 1, bridges: vec![] })
 }
 
 /// Where the result of a scan along the curves may differ from the morphological closing of `raw`: crossings of the
 /// locus, and a point of every ring whose locus lies in D as a whole.
-pub(super) fn differences(scanned: &Region, raw: &Region, r: f64, resolution: f64) -> Vec<Point> {
+pub(super) fn differences(scanned: &Scanned, raw: &Region, r: f64, resolution: f64) -> Vec<Point> {
     let solid = Solid::new(raw);
-    let mut attempt = Attempt::new(scanned, &solid, r, r * (1.0 - SHRINK), resolution);
+    let (rings, still) = (&scanned.region.rings, Some(&*scanned.still));
+    let mut attempt = Attempt::new(&scanned.region, still, &solid, r, r * (1.0 - SHRINK), resolution);
     let mut places: Vec<Point> = attempt.events.iter().step_by(2).map(|e| e.point).collect();
-    for (ring, verdict) in scanned.rings.iter().zip(attempt.ring_verdicts()) {
+    for (ring, verdict) in rings.iter().zip(attempt.ring_verdicts()) {
         if verdict == Some(Verdict::Covered) {
             places.extend(ring.vertices.first().map(|v| v.point));
         }
@@ -123,6 +125,8 @@ impl Solid {
 
 struct Attempt<'a> {
     region: &'a Region,
+    /// Which vertices of the region are vertices of the input; all where it is the input.
+    still: Option<&'a [Vec<bool>]>,
     solid: &'a Solid,
     r: f64,
     /// Below this distance to the input a sample lies in D.
@@ -135,13 +139,20 @@ struct Attempt<'a> {
 }
 
 impl<'a> Attempt<'a> {
-    fn new(region: &'a Region, solid: &'a Solid, r: f64, locus_radius: f64, resolution: f64) -> Attempt<'a> {
+    fn new(
+        region: &'a Region,
+        still: Option<&'a [Vec<bool>]>,
+        solid: &'a Solid,
+        r: f64,
+        locus_radius: f64,
+        resolution: f64,
+    ) -> Attempt<'a> {
         let locus = Locus::new(region, locus_radius, ROUNDING_STEPS * resolution);
         let events = crossings(&locus, r);
         let itinerary = Itinerary::new(&events, |p| locus.pieces[p as usize].ring);
         let limit = locus_radius - (INSIDE + TINY + RING_SPREAD) * r - 2.0 * ROUNDING_STEPS * resolution;
         let centers = vec![None; events.len()];
-        Attempt { region, solid, r, limit, locus, events, itinerary, centers, contradictions: 0 }
+        Attempt { region, still, solid, r, limit, locus, events, itinerary, centers, contradictions: 0 }
     }
 
     fn run(mut self) -> Merged {
@@ -203,8 +214,11 @@ impl<'a> Attempt<'a> {
         let twin = self.piece(self.events[e as usize].twin);
         let ring = &self.region.rings[twin.ring as usize];
         let node = twin.node as usize;
-        let near = |v: &Vertex| v.id.is_some() && (v.point - p).norm_squared() < self.limit * self.limit;
-        near(&ring.vertices[node]) || near(&ring.vertices[(node + 1) % ring.len()])
+        let is_near = |k: usize| {
+            self.still.is_none_or(|still| still[twin.ring as usize][k])
+                && (ring.vertices[k].point - p).norm_squared() < self.limit * self.limit
+        };
+        is_near(node) || is_near((node + 1) % ring.len())
     }
 
     /// A point well inside the stretch from `e` to the next event, and the length it stands for.

@@ -10,6 +10,7 @@
 
 mod carrier;
 mod crossings;
+mod excess;
 mod locus;
 mod loops;
 mod merge;
@@ -73,7 +74,7 @@ pub fn open(region: &Region, radius: Radius, topology: Topology) -> Outcome {
 
 fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
     // What an unfinished scan leaves undone the merge does.
-    let (prepared, _) = scan_rings(region, r, scan::Mode::Safe, resolution);
+    let prepared = scan_rings(region, r, scan::Mode::Safe, resolution);
     let merged = merge::merge(&prepared, region, r, resolution);
     let mut contradictions = merged.contradictions;
     // So far from the origin that directions are uncertain, the result is looked at once more.
@@ -85,10 +86,10 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
 }
 
 fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
-    let (scanned, unfinished) = scan_rings(input, r, scan::Mode::Geodesic, resolution);
+    let scanned = scan_rings(input, r, scan::Mode::Geodesic, resolution);
     let mut differences = merge::differences(&scanned, input, r, resolution);
-    differences.extend(unfinished);
-    let (region, absorbed) = without_absorbed(scanned, input.area() < 0.0);
+    differences.extend(scanned.unfinished);
+    let (region, absorbed) = without_absorbed(scanned.region, input.area() < 0.0);
     differences.extend(absorbed);
     if differences.is_empty() {
         // The two meanings agree, and the merge has its distances to prove it by.
@@ -135,22 +136,32 @@ fn without_absorbed(scanned: Region, far_is_solid: bool) -> (Region, Vec<Point>)
     (Region::new(kept), absorbed)
 }
 
-/// The scanned rings, and a point of every ring whose scan did not come to its end.
-fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> (Region, Vec<Point>) {
-    let mut unfinished = vec![];
-    let rings = region.rings.iter().filter(|ring| ring.len() > 1).filter_map(|ring| {
-        let scan::Scan { ring: scanned, finished } = scan::scan(ring, r, mode, resolution);
-        if !finished {
-            unfinished.extend(ring.vertices.first().map(|v| v.point));
+/// The rings of a region after the scan.
+struct Scanned {
+    region: Region,
+    /// Of every ring, which vertices are vertices of the input, unmoved.
+    still: Vec<Vec<bool>>,
+    /// A point of every ring whose scan did not come to its end.
+    unfinished: Vec<Point>,
+}
+
+fn scan_rings(region: &Region, r: f64, mode: scan::Mode, resolution: f64) -> Scanned {
+    let mut scanned = Scanned { region: Region::default(), still: vec![], unfinished: vec![] };
+    for ring in region.rings.iter().filter(|ring| ring.len() > 1) {
+        let scan = scan::scan(ring, r, mode, resolution);
+        if !scan.finished {
+            scanned.unfinished.extend(ring.vertices.first().map(|v| v.point));
         }
-        if !scanned.is_empty() {
-            Some(scanned)
-        } else {
+        if !scan.ring.is_empty() {
+            scanned.region.rings.push(scan.ring);
+            scanned.still.push(scan.still);
+        } else if ring.area() > 0.0 {
             // A hole that vanishes is filled; material never vanishes in a closing.
-            (ring.area() > 0.0).then(|| ring.clone())
+            scanned.region.rings.push(ring.clone());
+            scanned.still.push(vec![true; ring.len()]);
         }
-    });
-    (Region::new(rings.collect()), unfinished)
+    }
+    scanned
 }
 
 /// A displacement that brings the region near the origin without rounding any coordinate, or zero.

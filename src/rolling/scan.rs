@@ -9,18 +9,18 @@
 //! undone the merge finishes. [`Mode::Geodesic`] measures distance along the curve, as the
 //! flow of the paper does (eq. 7): its end state is the limit of that flow.
 //!
-//! Tolerances, all relative to the radius: [`MIN_LINK`] along the boundary, [`MIN_EXCESS`] in radians,
-//! [`HIDDEN`] across it.
+//! Tolerances, all relative to the radius: [`MIN_LINK`] along the boundary, [`HIDDEN`] across it; turns are measured by
+//! [`excess`].
 
 mod step;
 
 use std::collections::VecDeque;
-use std::f64::consts::TAU;
 
 use super::carrier::center_of_chord;
+use super::excess::{WHOLE_TURN, excess, follows_samples};
 use super::merge::{ROUNDING_STEPS, SHRINK};
 use super::track::Track;
-use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex, turn_angle};
+use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex};
 
 /// A contact nearer than this to the end of a link, relative to the radius, is at the end. An error of this size along
 /// a tangent moves the boundary by half its square: 1e-14 r.
@@ -30,7 +30,7 @@ const MIN_LINK: f64 = 1e-7;
 /// has no direction. It bounds the only inward error of the scan.
 const COINCIDENT: f64 = 1e-11;
 
-/// Turns below this (radians) are rounding: an arc of the disk this short moves the boundary by 1e-19 r.
+/// Turns below this (radians, nearly) are rounding: an arc of the disk this short moves the boundary by 1e-19 r.
 const MIN_EXCESS: f64 = 1e-9;
 
 /// A node may vanish under a new arc only where the disk is at least this near to holding no part of it, relative to
@@ -40,14 +40,14 @@ const HIDDEN: f64 = 1e-10;
 /// A disk is clear of a link that it overlaps by less than this, relative to the radius: rounding of flat crossings.
 const CLEAR: f64 = 1e-9;
 
-/// A concave turn below this (radians) at the end of a scan is what is left of tangents known to 1e-8.
+/// A concave turn below this (radians, nearly) at the end of a scan is what is left of tangents known to 1e-8.
 const UNSETTLED: f64 = 1e-6;
 
-/// The excess above which a pocket winds back on itself so far that a local operation may be wrong.
-const SAFE_EXCESS: f64 = 3.1;
+/// The excess above which a pocket winds back on itself so far that a local operation may be wrong: 3.1 radians.
+const SAFE_EXCESS: f64 = 1.96;
 
-/// The excess of a node that stays in place never falls; a fall by more than this is a turn that passed π.
-const WRAPPED: f64 = 1.0;
+/// The excess of a node that stays in place never falls; a fall by more than this is a turn that passed half a turn.
+const WRAPPED: f64 = 0.6;
 
 /// Operations allowed: measured, 1.2 to 1.5 a vertex even where nearly all move.
 const OPERATIONS_PER_VERTEX: usize = 200;
@@ -66,6 +66,8 @@ pub(super) enum Mode {
 pub(super) struct Scan {
     /// The ring with its new arcs; empty where the disk fits nowhere in a hole.
     pub(super) ring: Ring,
+    /// Which vertices of the ring are vertices of the input, unmoved.
+    pub(super) still: Vec<bool>,
     /// Whether the scan came to its end; operations that [`Mode::Safe`] left undone do not count.
     pub(super) finished: bool,
 }
@@ -239,8 +241,9 @@ impl<'a> Roller<'a> {
             let (cross, dot) = (u.perp(&v), u.dot(&v));
             if cross < 0.0 && (dot < 0.0 || -cross > self.min_excess * dot) {
                 let smooth = self.input.vertices[i].joint == Joint::Smooth
-                    && follows_samples((-cross).atan2(dot), incoming.length(), outgoing.length(), self.r);
+                    && follows_samples(u, v, incoming.length(), outgoing.length(), self.r);
                 if !smooth {
+                    self.node_mut(i as u32).excess = Some(excess(u, v));
                     self.enqueue(i as u32);
                 }
             }
@@ -269,28 +272,23 @@ impl<'a> Roller<'a> {
         self.node(a).link == LinkKind::Rolling
     }
 
-    /// Direction of the link from `a` at its start (`at_start`) or end.
+    /// Direction of the link from `a` at its start (`at_start`) or end, of any length.
     fn tangent(&self, a: u32, at_start: bool) -> Vector {
         let node = self.node(a);
         let (from, to) = (node.point, self.node(node.next).point);
         match node.link {
-            LinkKind::Line => (to - from).try_normalize(0.0).unwrap_or(Vector::x()),
+            LinkKind::Line => to - from,
             LinkKind::Input(_) => {
                 let s = self.segment(a);
                 if at_start { s.start_tangent() } else { s.end_tangent() }
             }
             LinkKind::Rolling => {
                 let d = to - from;
-                let length = d.norm();
-                if length == 0.0 {
-                    return Vector::x();
-                }
-                let u = d / length;
                 // The chord turned by half the arc: left at the start, right at the end.
-                let sin = (length / (2.0 * self.r)).min(1.0);
+                let sin = (d.norm() / (2.0 * self.r)).min(1.0);
                 let cos = ((1.0 - sin) * (1.0 + sin)).sqrt();
                 let sin = if at_start { sin } else { -sin };
-                Vector::new(cos * u.x - sin * u.y, sin * u.x + cos * u.y)
+                Vector::new(cos * d.x - sin * d.y, sin * d.x + cos * d.y)
             }
         }
     }
@@ -300,7 +298,7 @@ impl<'a> Roller<'a> {
         let n = self.input.len();
         let i = i as usize;
         let incoming = self.input.segment(if i == 0 { n - 1 } else { i - 1 });
-        -turn_angle(incoming.end_tangent(), self.input.segment(i).start_tangent())
+        excess(incoming.end_tangent(), self.input.segment(i).start_tangent())
     }
 
     fn visit(&mut self, b: u32) {
@@ -308,17 +306,17 @@ impl<'a> Roller<'a> {
         let c = self.node(b).next;
         let min_link = COINCIDENT * self.r;
         // A link without length has no direction: its end is its start.
-        if (self.node(b).point - self.node(a).point).norm() <= min_link {
+        if (self.node(b).point - self.node(a).point).norm_squared() <= min_link * min_link {
             return self.absorb(a, b, c);
         }
-        let mut excess = -turn_angle(self.tangent(a, false), self.tangent(b, true));
+        let mut excess = excess(self.tangent(a, false), self.tangent(b, true));
         let before = match (self.node(b).excess, self.node(b).source) {
             (Some(stored), _) => stored,
             (None, Some(i)) => self.original_excess(i),
             (None, None) => 0.0,
         };
         match self.mode {
-            Mode::Geodesic if excess < before - WRAPPED => excess += TAU,
+            Mode::Geodesic if excess < before - WRAPPED => excess += WHOLE_TURN,
             Mode::Safe if excess < before - WRAPPED || excess > SAFE_EXCESS => {
                 self.node_mut(b).excess = Some(excess);
                 return;
@@ -433,16 +431,10 @@ impl<'a> Roller<'a> {
         let mut i = self.head;
         for _ in 0..self.alive {
             let (u, v) = (self.tangent(self.node(i).prev, false), self.tangent(i, true));
-            let cross = u.perp(&v);
-            if cross < -UNSETTLED {
+            if excess(u, v) > UNSETTLED {
                 let smooth = self.node(i).source.is_some_and(|s| {
-                    self.input.vertices[s as usize].joint == Joint::Smooth
-                        && follows_samples(
-                            -turn_angle(u, v),
-                            self.segment(self.node(i).prev).length(),
-                            self.segment(i).length(),
-                            self.r,
-                        )
+                    let (l1, l2) = (self.segment(self.node(i).prev).length(), self.segment(i).length());
+                    self.input.vertices[s as usize].joint == Joint::Smooth && follows_samples(u, v, l1, l2, self.r)
                 });
                 if !smooth {
                     return false;
@@ -456,6 +448,7 @@ impl<'a> Roller<'a> {
     fn finish(self) -> Scan {
         let finished = !self.exhausted && (self.mode == Mode::Safe || self.is_settled());
         let mut vertices = Vec::with_capacity(self.alive);
+        let mut still = Vec::with_capacity(self.alive);
         if self.alive > 0 {
             let mut i = self.head;
             loop {
@@ -467,20 +460,13 @@ impl<'a> Roller<'a> {
                     joint: original.map_or(Joint::Corner, |v| v.joint),
                     id: original.and_then(|v| v.id),
                 });
+                still.push(original.is_some());
                 i = node.next;
                 if i == self.head {
                     break;
                 }
             }
         }
-        Scan { ring: Ring { vertices }, finished }
+        Scan { ring: Ring { vertices }, still, finished }
     }
-}
-
-/// Whether a disk of radius `r` follows a concave curve whose chords of lengths `l1` and `l2` turn by `excess` at a
-/// sample: it touches the two chords in the halves that meet there.
-pub(super) fn follows_samples(excess: f64, l1: f64, l2: f64, r: f64) -> bool {
-    // Samples are evenly spaced in the parameter, not in length: a little room for that.
-    const UNEVEN: f64 = 1e-3;
-    excess < 1.0 && r * (0.5 * excess).tan() <= 0.5 * l1.min(l2) * (1.0 + UNEVEN)
 }

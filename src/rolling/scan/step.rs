@@ -1,10 +1,9 @@
 //! What to do at one node: where a new arc of the disk goes, decided before anything is changed.
 
-use std::f64::consts::PI;
-
 use super::{CLEAR, HIDDEN, LinkKind, MIN_EXCESS, MIN_LINK, Meets, Mode, Roller, Step};
-use crate::plane::{Point, Vector, right_normal};
+use crate::plane::{Point, right_normal};
 use crate::rolling::carrier::{Carrier, center_of_chord};
+use crate::rolling::excess::{HALF_TURN, half_turn_tangent};
 use crate::rolling::track::{Contact, Track};
 
 impl Roller<'_> {
@@ -51,7 +50,7 @@ impl Roller<'_> {
         let min_link = MIN_LINK * self.r;
         let corner = self.node(b).point;
         let (u, v) = (left.tangent_at(corner), right.tangent_at(corner));
-        let reach = if excess > PI - MIN_LINK { f64::INFINITY } else { self.r * half_turn_tangent(u, v) };
+        let reach = if excess > HALF_TURN - MIN_LINK { f64::INFINITY } else { self.r * half_turn_tangent(u, v) };
         let shorter = left.length.min(right.length);
         if reach < shorter - min_link {
             Step::Cut { start: corner - u * reach, end: corner + v * reach }
@@ -226,9 +225,4 @@ impl Roller<'_> {
         let safe = self.mode == Mode::Geodesic || (chord > MIN_EXCESS * self.r && hidden());
         if spans && safe { Step::Kill } else { Step::Refuse }
     }
-}
-
-/// tan(e/2) for the right turn e from one unit vector to another: sin e / (1 + cos e).
-fn half_turn_tangent(u: Vector, v: Vector) -> f64 {
-    -u.perp(&v) / (1.0 + u.dot(&v))
 }
