@@ -182,8 +182,10 @@ def main():
             if row.get("lines"):
                 print(f"{row['key']}: {figures}, without {row['lines']} lines that lie in the reference beside its area")
     worst = {name: max((row.get(name, 0) for row in flat), default=0) for name in ("hausdorff", "containment")}
+    empty = sum(row.get("empty_output", False) for row in flat)
     print(
-        f"{len(order)} judged; {len(flat)} of them within hausdorff {worst['hausdorff']:.2e} r (asked {HAUSDORFF:.1e}) and "
+        f"{len(order)} judged; {len(flat)} of them ({empty} empty, as they should be) within "
+        f"hausdorff {worst['hausdorff']:.2e} r (asked {HAUSDORFF:.1e}) and "
         f"containment {worst['containment']:.2e} r (asked {CONTAINMENT:.0e}); kept in countries at least {kept:.4f}"
     )
     sys.exit(1 if bad or not order else 0)
