@@ -103,6 +103,10 @@ fn the_witness_knows_a_corner_to_the_last_digits() {
         assert_eq!(witness.membership(at(d)), Membership::Inside);
         let expected = (d - 1.0).min(0.1);
         assert!((witness.depth(at(d)) - expected).abs() < 1e-12, "{} for {expected}", witness.depth(at(d)));
+        // Centres are looked for up to 1.1 radii away.
+        let center = witness.free_center(at(d));
+        assert_eq!(center.is_some(), d < 1.1);
+        assert!(center.is_none_or(|c| (c - Point::new(5.0, 5.0)).norm() < 1e-12), "{center:?}");
     }
     assert_eq!(witness.membership(at(0.999)), Membership::Outside);
     assert_eq!(witness.membership(at(1.0)), Membership::WithinTolerance);

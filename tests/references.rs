@@ -1,19 +1,21 @@
-//! The rolling disk against the stored references: 26 drawings, three radii, closed and opened.
+//! Results against the stored references: the rolling disk, and the offset references that judge it.
 //!
-//! A spread of them, or all with CLOPEN_ALL_REFERENCES set (best in release). They were made from the polygons
-//! that `Curves::Polygon` gives, and are themselves certified by distances to 1e-6 r only: where a result is farther than
-//! 1e-7 r from one, the definition of the closing decides.
+//! A spread of the references, or all with CLOPEN_ALL_REFERENCES set (in release: minutes otherwise). They are certified by
+//! distances to 1e-6 r only, and some are wrong by more than 1e-7 r. Those are named here, and the definition of the
+//! closing, asked by distances, must say at the place that the result is right and the reference is not.
 
 mod laws;
+mod stored;
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use clopen::io::svg::{self, Curves, ReadOptions};
-use clopen::plane::{Arc, Joint, Link, Point, Region, Ring, Turn, Vector, Vertex};
-use clopen::reference::Operation;
-use clopen::rolling::{self, Topology};
+use clopen::check::{compare, lost_features};
+use clopen::plane::{BoundaryIndex, Region};
+use clopen::reference::witness::Witness;
+use clopen::reference::{Operation, arcs, overlay};
+use clopen::rolling::{self, Outcome, Topology};
 use laws::{ACCURACY, Arbiter};
+use stored::Entry;
 
 /// What may poke out, over the radius.
 const CONTAINMENT: f64 = 1e-9;
@@ -22,184 +24,261 @@ const CONTAINMENT: f64 = 1e-9;
 const SPREAD: usize = 7;
 
 /// Drawings with more vertices are left to the full run.
-const LARGEST_BY_DEFAULT: u64 = 8000;
+const LARGEST_BY_DEFAULT: usize = 8000;
 
-/// By how much numbers of vertices may differ: the references' polygons keep a few points on straight lines, or nearly so,
-/// where shapes meet that are united.
-const VERTICES_APART: f64 = 1e-3;
+/// Points that the references' polygons have more than the drawings, as read here. Where a subpath closes, their reader
+/// misses its start by a last digit, and has both points; gutenberg has 13 of those, and the needle of two points that
+/// [`FAULTY`] tells of.
+const REPEATED_POINTS: [(&str, usize); 5] = [
+    ("emblem_canada_maple_leaf", 1),
+    ("emblem_albania_half_eagle", 1),
+    ("icon_fa_dungeon", 2),
+    ("icon_game_medusa_head", 7),
+    ("icon_si_gutenberg", 15),
+];
 
-/// References that a polygon clipper made, within its own tolerance.
-const CLIPPED: &str = "clipper2";
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/2d")
+/// A reference that is wrong.
+struct Faulty {
+    key: &'static str,
+    /// How far from it a right result may be, over the radius.
+    apart: f64,
+    why: &'static str,
 }
 
-/// Rings of "x y bulge" rows, ended by "#", with y downward.
-fn parse_arcs(text: &str) -> Region {
-    let rings = text.split('#').map(|block| {
-        let rows: Vec<[f64; 3]> = block
-            .lines()
-            .filter_map(|l| {
-                let mut numbers = l.split_whitespace().map(|t| t.parse::<f64>().unwrap());
-                Some([numbers.next()?, -numbers.next()?, -numbers.next()?])
-            })
-            .collect();
-        let n = rows.len();
-        let vertices = (0..n).map(|i| {
-            let ([ax, ay, bulge], [bx, by, _]) = (rows[i], rows[(i + 1) % n]);
-            let (from, to) = (Point::new(ax, ay), Point::new(bx, by));
-            let link = if bulge.abs() < 1e-12 {
-                Link::Line
-            } else {
-                let chord = to - from;
-                let center = nalgebra::center(&from, &to)
-                    + Vector::new(-chord.y, chord.x) * ((1.0 - bulge * bulge) / (4.0 * bulge));
-                let turn = if bulge > 0.0 { Turn::Left } else { Turn::Right };
-                Link::Arc(Arc { center, radius: (from - center).norm(), turn })
-            };
-            Vertex { point: from, link, joint: Joint::Corner, id: None }
-        });
-        Ring { vertices: vertices.collect() }
+/// Those that are wrong by more than [`ACCURACY`], with what their index says of how far they are certified.
+///
+/// The needle: a subpath of gutenberg runs over its start, from (21.144, 0.096) on the page to (21.143, 0.096), and closes by
+/// going back. That fills nothing, but the references' reader has it 6e-17 wide by rounding, and it stands out by 4.0e-5
+/// units of the chord beside it.
+const FAULTY: [Faulty; 8] = [
+    Faulty { key: "emblem_canada_maple_leaf.r2.close", apart: 1.8e-7, why: "certified to 1.6e-7 r only" },
+    Faulty { key: "glyph_libertine_word_Quartz.r0.5.close", apart: 2e-7, why: COARSE },
+    Faulty { key: "glyph_libertine_word_Quartz.r2.close", apart: 8e-6, why: "certified to 7.9e-6 r only" },
+    Faulty { key: "icon_game_medusa_head.r0.5.open", apart: 1.8e-7, why: COARSE },
+    Faulty { key: "icon_si_gutenberg.r0.5.close", apart: 2.6e-3, why: "certified to 1e-3 r only; the needle" },
+    Faulty { key: "icon_si_gutenberg.r0.5.open", apart: 2e-2, why: "certified to 1e-3 r only" },
+    Faulty { key: "icon_si_gutenberg.r2.close", apart: 6.1e-5, why: "the needle" },
+    Faulty { key: "icon_si_gutenberg.r6.close", apart: 2.1e-5, why: "the needle" },
+];
+
+const COARSE: &str = "certified to 1e-6 r only";
+
+/// Results that keep the topology and say of themselves that they do not stand: input pokes out of them.
+const NOT_STANDING: [&str; 1] = ["icon_si_gutenberg.r2.open"];
+
+/// What the laws say of one reference.
+#[derive(Default)]
+struct Findings {
+    failures: Vec<String>,
+    notes: Vec<String>,
+    /// The distance over the radius, where result and reference agree.
+    apart: f64,
+    still_vertices: usize,
+    /// Whether keeping the topology is proved to be no different from merging.
+    proved: bool,
+}
+
+fn all() -> bool {
+    std::env::var_os("CLOPEN_ALL_REFERENCES").is_some()
+}
+
+/// The answers of `ask` in order, worked out by as many threads as the machine has.
+fn in_parallel<T: Sync, R: Send>(items: &[T], ask: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let numbers = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+        numbers.take_while(|&k| k < items.len()).map(|k| (k, ask(&items[k]))).collect::<Vec<_>>()
+    };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut answers: Vec<(usize, R)> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().flat_map(|w| w.join().expect("the laws do not panic")).collect()
     });
-    // Seen from the other side rings run the other way.
-    Region::new(rings.filter(|r| r.len() > 1).collect()).reversed()
-}
-
-/// Polygons and multipolygons in little-endian well-known binary, with y downward.
-fn parse_wkb(bytes: &[u8]) -> Region {
-    struct Reader<'a>(&'a [u8]);
-    impl Reader<'_> {
-        fn take<const N: usize>(&mut self) -> [u8; N] {
-            let (head, tail) = self.0.split_first_chunk().expect("the file is whole");
-            self.0 = tail;
-            *head
-        }
-        fn number(&mut self) -> u32 {
-            u32::from_le_bytes(self.take())
-        }
-        fn geometry(&mut self, rings: &mut Vec<Ring>) {
-            assert_eq!(self.take::<1>(), [1], "little-endian");
-            let kind = self.number();
-            let count = self.number();
-            for k in 0..count {
-                if kind == 6 {
-                    self.geometry(rings);
-                    continue;
-                }
-                assert_eq!(kind, 3, "a polygon");
-                let points = self.number();
-                let mut ring = Ring::polygon((0..points).map(|_| {
-                    let x = f64::from_le_bytes(self.take());
-                    Point::new(x, -f64::from_le_bytes(self.take()))
-                }));
-                // The first point is repeated at the end.
-                ring.vertices.pop();
-                let outer = k == 0;
-                rings.push(if (ring.area() > 0.0) == outer { ring } else { ring.reversed() });
-            }
-        }
-    }
-    let mut rings = vec![];
-    Reader(bytes).geometry(&mut rings);
-    Region::new(rings)
-}
-
-fn unpacked(path: &Path) -> Vec<u8> {
-    let output = Command::new("xz").arg("-dc").arg(path).output().unwrap();
-    assert!(output.status.success(), "{}", path.display());
-    output.stdout
-}
-
-fn stored(key: &str, source: &str) -> Region {
-    let folder = folder().join("ref");
-    if source == CLIPPED {
-        parse_wkb(&unpacked(&folder.join(format!("{key}.wkb.xz"))))
-    } else {
-        parse_arcs(&String::from_utf8(unpacked(&folder.join(format!("{key}.arcs.xz")))).unwrap())
-    }
+    answers.sort_by_key(|(k, _)| *k);
+    answers.into_iter().map(|(_, answer)| answer).collect()
 }
 
 #[test]
 fn results_agree_with_stored_references_or_the_references_are_at_fault() {
-    let Ok(index) = std::fs::read_to_string(folder().join("ref/index.json")) else {
-        println!("skipped: ../shared is absent");
-        return;
-    };
-    if Command::new("xz").arg("--version").output().is_err() {
-        println!("skipped: the command xz is absent");
-        return;
+    let Some(index) = stored::index() else { return };
+    let mut chosen: Vec<Entry> = index
+        .into_iter()
+        .enumerate()
+        .filter(|(k, e)| all() || (k % SPREAD == 0 && e.vertices <= LARGEST_BY_DEFAULT))
+        .map(|(_, e)| e)
+        .collect();
+    // The largest first, or one thread is left with them at the end.
+    chosen.sort_by_key(|e| std::cmp::Reverse(e.vertices));
+    let findings = in_parallel(&chosen, obeys);
+    for (entry, found) in chosen.iter().zip(&findings) {
+        found.notes.iter().for_each(|note| println!("{}: {note}", entry.key));
     }
-    let index: serde_json::Value = serde_json::from_str(&index).unwrap();
-    let index = index.as_object().unwrap();
-    let all = std::env::var_os("CLOPEN_ALL_REFERENCES").is_some();
-    let mut failures = vec![];
-    let (mut compared, mut farthest, mut still_vertices, mut proved) = (0, 0.0f64, 0, 0);
-    for (k, (key, entry)) in index.iter().enumerate() {
-        let vertices = entry["nv_in"].as_u64().unwrap();
-        if !all && (k % SPREAD != 0 || vertices > LARGEST_BY_DEFAULT) {
-            continue;
-        }
-        let options = ReadOptions { curves: Curves::Polygon, ..ReadOptions::default() };
-        let drawing = std::fs::read(folder().join(entry["file"].as_str().unwrap())).unwrap();
-        let input = svg::read(&drawing, &options).unwrap().region;
-        let r = entry["r"].as_f64().unwrap();
-        let operation = if entry["mode"] == "close" { Operation::Close } else { Operation::Open };
-        let run = if operation == Operation::Close { rolling::close } else { rolling::open };
-        let mut fail = |what: String| failures.push(format!("{key}: {what}"));
-        if (input.vertex_count() as f64 / vertices as f64 - 1.0).abs() > VERTICES_APART {
-            fail(format!("{} vertices read, the reference was made from {vertices}", input.vertex_count()));
-        }
-        let [merged, kept] = [Topology::Merge, Topology::Keep].map(|t| run(&input, laws::radius(r), t));
-        if merged.contradictions > 0 {
-            fail(format!("{} contradictions", merged.contradictions));
-        }
-        let source = entry["source"].as_str().unwrap();
-        let reference = stored(key, source);
-        let (d, place) = laws::hausdorff(&merged.region, &reference, r);
-        if d > ACCURACY * r {
-            let arbiter = Arbiter::new(&input, operation, r);
-            let ours = arbiter.fault_against(&merged.region, &reference, 0.5 * ACCURACY * r, 48);
-            let theirs = arbiter.fault_against(&reference, &merged.region, 0.5 * ACCURACY * r, 48);
-            println!("{key}: {:.1e} r at {place}: reference {theirs:?}", d / r);
-            if ours.is_some() || theirs.is_none() {
-                fail(format!("{:.1e} r from the reference at {place}: ours {ours:?}, theirs {theirs:?}", d / r));
-            }
-        } else {
-            farthest = farthest.max(d / r);
-        }
-        for (mode, outcome) in [("merge", &merged), ("keep", &kept)] {
-            let (violation, place) = laws::containment(&input, &outcome.region, operation, r);
-            if violation > CONTAINMENT * r {
-                fail(format!("{mode}: containment fails by {:.1e} r at {place}", violation / r));
-            }
-            let misplaced = laws::misplaced_identities(&input, &outcome.region);
-            if misplaced > 0 {
-                fail(format!("{mode}: {misplaced} vertices with an identity have moved"));
-            }
-            let (still, lost) = laws::lost_vertices(&input, &outcome.region, operation, 1e-9 * r);
-            still_vertices += still;
-            let lost = laws::truly_still(lost, &input, operation, r);
-            if let Some(p) = lost.first() {
-                fail(format!("{mode}: {} vertices that are still are lost, as {p}", lost.len()));
-            }
-        }
-        if let Some(place) = laws::crossing(&merged.region, r) {
-            fail(format!("the result crosses itself at {place}"));
-        }
-        if kept.differences.is_empty() {
-            proved += 1;
-            let (d, place) = laws::hausdorff(&merged.region, &kept.region, r);
-            if d > ACCURACY * r {
-                fail(format!("keep is {:.1e} r from merge at {place} and tells no difference", d / r));
-            }
-        }
-        compared += 1;
-    }
+    let farthest = findings.iter().fold(0.0, |m: f64, f| m.max(f.apart));
+    let still_vertices: usize = findings.iter().map(|f| f.still_vertices).sum();
+    let proved = findings.iter().filter(|f| f.proved).count();
     println!(
-        "{compared} compared, {farthest:.1e} r at most where they agree; {still_vertices} still vertices; keep is merge in {proved}"
+        "{} compared, {farthest:.1e} r at most where they agree; {still_vertices} still vertices; keep is merge in {proved}",
+        chosen.len()
     );
+    let failures = chosen.iter().zip(&findings).flat_map(|(e, f)| f.failures.iter().map(|x| format!("{}: {x}", e.key)));
+    let failures: Vec<String> = failures.collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    assert!(compared >= if all { 156 } else { 15 }, "only {compared} compared");
+    assert!(chosen.len() >= if all() { 156 } else { 15 }, "only {} compared", chosen.len());
     assert!(still_vertices > 1000 && proved > 0);
+}
+
+/// Every law, asked of one drawing, radius and operation.
+fn obeys(entry: &Entry) -> Findings {
+    let mut found = Findings::default();
+    let (input, reference) = (entry.input(), entry.reference());
+    is_the_same_polygon(entry, &input, &mut found);
+    let run = if entry.operation == Operation::Close { rolling::close } else { rolling::open };
+    let merged = run(&input, laws::radius(entry.r), Topology::Merge);
+    let kept = run(&input, laws::radius(entry.r), Topology::Keep);
+    if merged.contradictions > 0 {
+        found.failures.push(format!("{} contradictions", merged.contradictions));
+    }
+    agrees(entry, &input, &merged.region, &reference, &mut found);
+    contains_and_keeps(entry, &input, "merge", &merged, &mut found);
+    contains_and_keeps(entry, &input, "keep", &kept, &mut found);
+    if let Some(place) = laws::crossing(&merged.region, entry.r) {
+        found.failures.push(format!("the result crosses itself at {place}"));
+    }
+    if kept.differences.is_empty() {
+        found.proved = true;
+        let (d, place) = laws::hausdorff(&merged.region, &kept.region, entry.r);
+        if d > ACCURACY * entry.r {
+            let d = d / entry.r;
+            found.failures.push(format!("keep is {d:.1e} r from merge at {place} and tells no difference"));
+        }
+    }
+    found
+}
+
+/// The polygon read here has the vertices of that which the reference was made from.
+fn is_the_same_polygon(entry: &Entry, input: &Region, found: &mut Findings) {
+    let repeated = REPEATED_POINTS.iter().find(|(drawing, _)| *drawing == entry.drawing()).map_or(0, |(_, n)| *n);
+    let read = input.vertex_count();
+    if read + repeated != entry.vertices {
+        found.failures.push(format!(
+            "{read} vertices read, the reference was made from {}, of which {repeated} are repeated",
+            entry.vertices
+        ));
+    }
+}
+
+/// Result and reference are the same to [`ACCURACY`], or the reference is known to be wrong and is shown to be.
+fn agrees(entry: &Entry, input: &Region, result: &Region, reference: &Region, found: &mut Findings) {
+    let (d, place) = laws::hausdorff(result, reference, entry.r);
+    let apart = d / entry.r;
+    let known = FAULTY.iter().find(|f| f.key == entry.key);
+    match known {
+        None if apart <= ACCURACY => found.apart = apart,
+        None => found.failures.push(format!("{apart:.1e} r from the reference at {place}")),
+        Some(_) if apart <= ACCURACY => found.failures.push("agrees: the reference is not at fault".to_owned()),
+        Some(faulty) if apart > faulty.apart => {
+            let allowed = faulty.apart;
+            found.failures.push(format!("{apart:.1e} r from the reference at {place}, more than {allowed:.1e} r"));
+        }
+        Some(faulty) => match settle(entry, input, result, reference) {
+            Ok(proof) => found.notes.push(format!("{apart:.1e} r apart, reference at fault ({}): {proof}", faulty.why)),
+            Err(doubt) => found.failures.push(format!("{apart:.1e} r apart at {place}: {doubt}")),
+        },
+    }
+}
+
+/// Shows by distances that the reference is wrong and the result is right where they differ.
+fn settle(entry: &Entry, input: &Region, result: &Region, reference: &Region) -> Result<String, String> {
+    let (r, operation) = (entry.r, entry.operation);
+    let arbiter = Arbiter::new(input, operation, r);
+    if let Some(fault) = arbiter.fault_against(result, reference, 0.5 * ACCURACY * r, 48) {
+        return Err(format!("the result is at fault: {fault:?}"));
+    }
+    let witness = Witness::new(input, laws::radius(r), operation);
+    let mut proofs = vec![];
+    // A point of the reference where the truth has no boundary, whatever the radius in the band.
+    let (_, theirs) = laws::farthest(reference, &BoundaryIndex::new(result), r);
+    if arbiter.fault_on_boundary([theirs].into_iter()).is_some()
+        && let Some(center) = witness.free_center(theirs)
+    {
+        let off = (center - theirs).norm() / r - 1.0;
+        let clearance = BoundaryIndex::new(input).distance(center) / r - 1.0;
+        if clearance < -1e-9 || input.contains(center) == (operation == Operation::Close) {
+            return Err(format!("the disk around {center} is not free: {clearance:e} r"));
+        }
+        proofs.push(if off < 0.0 {
+            format!(
+                "the disk around {center} is free to {clearance:.0e} r and covers its point {theirs} by {:.1e} r",
+                -off
+            )
+        } else {
+            format!("its point {theirs} is {off:.1e} r from the nearest free disk, which is around {center}")
+        });
+    }
+    // A point of the result that is on the boundary of the truth, and not on that of the reference.
+    let (missed, ours) = laws::farthest(result, &BoundaryIndex::new(reference), r);
+    if missed > 2.0 * ACCURACY * r && arbiter.fault_on_boundary([ours].into_iter()).is_none() {
+        let off = witness.depth(ours).abs() / r;
+        let missed = missed / r;
+        proofs.push(format!("it is {missed:.1e} r from {ours}, which is {off:.0e} r from the nearest free disk's rim"));
+    }
+    if proofs.is_empty() { Err("no fault of the reference is shown".to_owned()) } else { Ok(proofs.join("; ")) }
+}
+
+/// The result contains what it promises to, and every vertex that is still is there, bit for bit.
+fn contains_and_keeps(entry: &Entry, input: &Region, mode: &str, outcome: &Outcome, found: &mut Findings) {
+    let (r, operation) = (entry.r, entry.operation);
+    let (violation, place) = laws::containment(input, &outcome.region, operation, r);
+    if violation > CONTAINMENT * r {
+        let violation = violation / r;
+        let said = mode == "keep" && outcome.contradictions > 0 && NOT_STANDING.contains(&&*entry.key);
+        let list = if said { &mut found.notes } else { &mut found.failures };
+        list.push(format!(
+            "{mode}: containment fails by {violation:.1e} r at {place}; contradictions it tells: {}",
+            outcome.contradictions
+        ));
+    }
+    let misplaced = laws::misplaced_identities(input, &outcome.region);
+    if misplaced > 0 {
+        found.failures.push(format!("{mode}: {misplaced} vertices with an identity have moved"));
+    }
+    let (still, lost) = laws::lost_vertices(input, &outcome.region, operation, 1e-9 * r);
+    found.still_vertices += still;
+    let lost = laws::truly_still(lost, input, operation, r);
+    if let Some(p) = lost.first() {
+        found.failures.push(format!("{mode}: {} vertices that are still are lost, as {p}", lost.len()));
+    }
+}
+
+#[test]
+fn offset_references_agree_with_the_stored_ones_on_countries() {
+    let Some(index) = stored::index() else { return };
+    let countries: Vec<Entry> = index.into_iter().filter(|e| e.key.starts_with("country_")).collect();
+    let compared = in_parallel(&countries, |entry| {
+        let (input, stored) = (entry.input(), entry.reference());
+        let (radius, operation) = (laws::radius(entry.r), entry.operation);
+        let mut methods = vec![("arcs", arcs::closing as fn(&_, _, _) -> _)];
+        // Exact as well on all of them, but each takes seconds.
+        if entry.key.starts_with("country_vietnam.r2") || all() {
+            methods.push(("overlay", overlay::closing));
+        }
+        let mut distances = vec![];
+        for (method, closing) in methods {
+            let reference = closing(&input, radius, operation).unwrap();
+            let distance = compare(&input, &stored, &reference, radius, operation).hausdorff.largest_over_r;
+            distances.push((method, distance, reference.error_bound / radius.get()));
+        }
+        (distances, lost_features(&input, &arcs::closing(&input, radius, operation).unwrap().region, radius).len())
+    });
+    let mut count = 0;
+    for (Entry { key, .. }, (distances, lost)) in countries.iter().zip(&compared) {
+        for (method, distance, certified) in distances {
+            println!("{key}, {method}: {distance:.1e} r, certified {certified:.1e} r; {lost} lost features");
+            // The stored arcs are certified to 1e-6 r, by distances, which displaces narrow crossings by a little more.
+            assert!(*distance < 1e-5, "{key}, {method}: {distance:e}");
+            count += 1;
+        }
+        assert!(*lost > 0, "{key}");
+    }
+    assert!(count >= 14, "{count}");
 }

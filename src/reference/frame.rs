@@ -22,6 +22,11 @@ impl Frame {
         Point::from((p - self.center) / self.radius)
     }
 
+    /// `p`, given in units of the radius, in the drawing.
+    pub(super) fn point_to_drawing(self, p: Point) -> Point {
+        self.center + p.coords * self.radius
+    }
+
     /// `region` in units of the radius, without links of no length and rings of no area.
     pub(super) fn to_unit(self, region: &Region) -> Region {
         Region::new(
@@ -35,8 +40,7 @@ impl Frame {
 
     /// The way back.
     pub(super) fn to_drawing(self, region: &Region) -> Region {
-        let map = |p: Point| self.center + p.coords * self.radius;
-        Region::new(region.rings.iter().map(|ring| mapped(ring, map, self.radius)).collect())
+        Region::new(region.rings.iter().map(|ring| mapped(ring, |p| self.point_to_drawing(p), self.radius)).collect())
     }
 }
 

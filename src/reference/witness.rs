@@ -99,6 +99,12 @@ impl Witness {
         self.depth_for(p, 1.0) * self.radius
     }
 
+    /// The centre nearest to `p` of a disk that misses the solid or, for an opening, lies in it; `None` where that is
+    /// farther than 1.1 radii.
+    pub fn free_center(&self, p: Point) -> Option<Point> {
+        self.nearest_center(self.frame.point_to_unit(p), 1.0).map(|c| self.frame.point_to_drawing(c))
+    }
+
     /// The depth of `p` over the radius, for a radius that is larger by the given factor.
     fn depth_for(&self, p: Point, factor: f64) -> f64 {
         self.unit_depth(self.frame.point_to_unit(p), factor)
@@ -114,8 +120,14 @@ impl Witness {
     }
 
     fn unit_depth(&self, p: Point, r: f64) -> f64 {
+        let distance = self.nearest_center(p, r).map_or(r * (1.0 + REACH), |c| (c - p).norm());
+        distance - r
+    }
+
+    /// The centre nearest to `p` that keeps `r` from what the disk must not touch, if it is within reach.
+    fn nearest_center(&self, p: Point, r: f64) -> Option<Point> {
         if self.keeps_distance(p, r) {
-            return -r;
+            return Some(p);
         }
         let reach = r * (1.0 + REACH);
         let curves = self.curves_near(p, r, reach);
@@ -133,7 +145,7 @@ impl Witness {
             }
         }
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.x.total_cmp(&b.1.x)).then(a.1.y.total_cmp(&b.1.y)));
-        candidates.iter().find(|(_, c)| self.keeps_distance(*c, r)).map_or(reach, |(d, _)| *d) - r
+        candidates.into_iter().map(|(_, c)| c).find(|&c| self.keeps_distance(c, r))
     }
 
     /// The curves at distance `r` from elements and vertices that come within `reach` of `p`.
