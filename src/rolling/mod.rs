@@ -18,7 +18,9 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{BoundaryIndex, Bounds, Point, Region, Ring, Segment, Vector, Vertex};
+use std::f64::consts::PI;
+
+use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Ring, Segment, Vector, Vertex};
 use crate::units::Radius;
 
 /// What closing means where components come near each other.
@@ -62,9 +64,25 @@ pub fn close(region: &Region, radius: Radius, topology: Topology) -> Outcome {
         return run(region);
     }
     let mut outcome = run(&region.translated(-shift));
-    outcome.region = outcome.region.translated(shift);
+    outcome.region = moved_back(&outcome.region, shift);
     outcome.differences.iter_mut().for_each(|p| *p += shift);
     outcome
+}
+
+/// The region moved by `shift`. Where that rounds the ends of a short arc past each other, which would make it a whole
+/// circle, they are joined by a line.
+fn moved_back(region: &Region, shift: Vector) -> Region {
+    let mut moved = region.translated(shift);
+    for (from, to) in region.rings.iter().zip(&mut moved.rings) {
+        for i in 0..to.len() {
+            if let Link::Arc(_) = to.vertices[i].link
+                && (to.segment(i).sweep() - from.segment(i).sweep()).abs() > PI
+            {
+                to.vertices[i].link = Link::Line;
+            }
+        }
+    }
+    moved
 }
 
 /// The opening of `region`: the closing of what is empty.

@@ -20,7 +20,7 @@ use super::carrier::center_of_chord;
 use super::excess::{WHOLE_TURN, excess, follows_samples};
 use super::merge::{ROUNDING_STEPS, SHRINK};
 use super::track::Track;
-use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex};
+use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex, right_normal};
 
 /// A contact nearer than this to the end of a link, relative to the radius, is at the end. An error of this size along
 /// a tangent moves the boundary by half its square: 1e-14 r.
@@ -80,11 +80,12 @@ pub(super) fn scan(ring: &Ring, r: f64, mode: Mode, resolution: f64) -> Scan {
 }
 
 /// The outgoing link of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum LinkKind {
     Line,
-    /// A minor arc of the disk, centre on the right.
-    Rolling,
+    /// A minor arc of the disk about this centre on the right. It is the centre of the disk that touched: that of a circle
+    /// through the ends of a short arc is uncertain, and with it the directions at the ends.
+    Rolling(Point),
     /// (Part of) the input arc that leaves this vertex of the ring.
     Input(u32),
 }
@@ -118,18 +119,26 @@ struct Roller<'a> {
     exhausted: bool,
 }
 
+/// An arc of the disk to come.
+#[derive(Clone, Copy)]
+struct NewArc {
+    start: Point,
+    end: Point,
+    center: Point,
+}
+
 /// What to do at a node, decided before anything is changed.
 enum Step {
     /// Take the node away; its neighbours are joined by an arc of the disk.
     Kill,
     /// Replace the corner between two links by an arc from contact to contact.
-    Corner { first: u32, start: Point, last: u32, end: Point },
+    Corner { first: u32, last: u32, arc: NewArc },
     /// Split the node in two with an arc between them.
-    Cut { start: Point, end: Point },
-    /// Move the node along its outgoing link; the incoming link becomes an arc.
-    Forward(Point, Meets),
-    /// Move the node back along its incoming link; the outgoing link becomes an arc.
-    Back(Point, Meets),
+    Cut(NewArc),
+    /// Move the node along its outgoing link to the end of the arc; the incoming link becomes the arc.
+    Forward(NewArc, Meets),
+    /// Move the node back along its incoming link to the start of the arc; the outgoing link becomes the arc.
+    Back(NewArc, Meets),
     /// Leave it.
     Refuse,
 }
@@ -226,8 +235,9 @@ impl<'a> Roller<'a> {
                 && !self.track(i).fits(self.r * (1.0 - SHRINK))
             {
                 // A concave arc below the radius: the disk spans it from end to end.
-                self.node_mut(i).link = LinkKind::Rolling;
                 let next = self.node(i).next;
+                let center = center_of_chord(self.node(i).point, self.node(next).point, self.r);
+                self.node_mut(i).link = LinkKind::Rolling(center);
                 self.enqueue(i);
                 self.enqueue(next);
             }
@@ -259,12 +269,18 @@ impl<'a> Roller<'a> {
         let link = match node.link {
             LinkKind::Line => Link::Line,
             LinkKind::Input(i) => self.input.vertices[i as usize].link,
-            LinkKind::Rolling => {
-                let center = center_of_chord(node.point, self.node(node.next).point, self.r);
-                Link::Arc(Arc { center, radius: self.r, turn: Turn::Right })
-            }
+            LinkKind::Rolling(center) => self.rolling_link(node.point, self.node(node.next).point, center),
         };
         Segment { start: node.point, end: self.node(node.next).point, link }
+    }
+
+    /// The minor arc about `center`, or a line where the ends are so near to each other that rounding has exchanged them.
+    fn rolling_link(&self, start: Point, end: Point, center: Point) -> Link {
+        let (from, to) = (start - center, end - center);
+        if from.perp(&to) >= 0.0 && from.dot(&to) > 0.0 {
+            return Link::Line;
+        }
+        Link::Arc(Arc { center, radius: self.r, turn: Turn::Right })
     }
 
     fn track(&self, a: u32) -> Track {
@@ -272,7 +288,7 @@ impl<'a> Roller<'a> {
     }
 
     fn is_rolling(&self, a: u32) -> bool {
-        self.node(a).link == LinkKind::Rolling
+        matches!(self.node(a).link, LinkKind::Rolling(_))
     }
 
     /// Direction of the link from `a` at its start (`at_start`) or end, of any length.
@@ -285,14 +301,7 @@ impl<'a> Roller<'a> {
                 let s = self.segment(a);
                 if at_start { s.start_tangent() } else { s.end_tangent() }
             }
-            LinkKind::Rolling => {
-                let d = to - from;
-                // The chord turned by half the arc: left at the start, right at the end.
-                let sin = (d.norm() / (2.0 * self.r)).min(1.0);
-                let cos = ((1.0 - sin) * (1.0 + sin)).sqrt();
-                let sin = if at_start { sin } else { -sin };
-                Vector::new(cos * d.x - sin * d.y, sin * d.x + cos * d.y)
-            }
+            LinkKind::Rolling(center) => right_normal(if at_start { from } else { to } - center),
         }
     }
 
@@ -373,25 +382,27 @@ impl<'a> Roller<'a> {
                 if self.head == b {
                     self.head = a;
                 }
+                let center = center_of_chord(self.node(a).point, self.node(c).point, self.r);
                 self.node_mut(a).next = c;
-                self.node_mut(a).link = LinkKind::Rolling;
+                self.node_mut(a).link = LinkKind::Rolling(center);
                 self.node_mut(c).prev = a;
                 self.enqueue(c);
                 self.enqueue(a);
             }
-            Step::Corner { first, start, last, end } => {
-                self.move_to(first, start);
-                self.move_to(last, end);
+            Step::Corner { first, last, arc } => {
+                self.move_to(first, arc.start);
+                self.move_to(last, arc.end);
+                self.node_mut(first).link = LinkKind::Rolling(arc.center);
             }
-            Step::Cut { start, end } => {
+            Step::Cut(arc) => {
                 let link = self.node(b).link;
                 let made = self.nodes.len() as u32;
-                self.move_to(b, start);
+                self.move_to(b, arc.start);
                 let node = self.node_mut(b);
-                node.link = LinkKind::Rolling;
+                node.link = LinkKind::Rolling(arc.center);
                 node.next = made;
                 self.nodes.push(Node {
-                    point: end,
+                    point: arc.end,
                     prev: b,
                     next: c,
                     link,
@@ -403,17 +414,17 @@ impl<'a> Roller<'a> {
                 self.node_mut(c).prev = made;
                 self.alive += 1;
             }
-            Step::Forward(p, meets) => {
-                self.move_to(b, p);
-                self.node_mut(a).link = LinkKind::Rolling;
+            Step::Forward(arc, meets) => {
+                self.move_to(b, arc.end);
+                self.node_mut(a).link = LinkKind::Rolling(arc.center);
                 if meets == Meets::Angle {
                     self.enqueue(b);
                 }
                 self.enqueue(a);
             }
-            Step::Back(p, meets) => {
-                self.move_to(b, p);
-                self.node_mut(b).link = LinkKind::Rolling;
+            Step::Back(arc, meets) => {
+                self.move_to(b, arc.start);
+                self.node_mut(b).link = LinkKind::Rolling(arc.center);
                 if meets == Meets::Angle {
                     self.enqueue(b);
                 }

@@ -1,6 +1,6 @@
 //! What to do at one node: where a new arc of the disk goes, decided before anything is changed.
 
-use super::{HIDDEN, LinkKind, MIN_EXCESS, MIN_LINK, Meets, Mode, Roller, Step};
+use super::{HIDDEN, MIN_EXCESS, MIN_LINK, Meets, Mode, NewArc, Roller, Step};
 use crate::plane::{Point, Segment, left_normal, right_normal};
 use crate::rolling::carrier::{Carrier, center_of_chord};
 use crate::rolling::excess::{HALF_TURN, half_turn_tangent};
@@ -30,9 +30,9 @@ impl Roller<'_> {
                 if !self.is_rolling(c)
                     && d != a
                     && d != b
-                    && let Some((start, end)) = self.corner(a, c)
+                    && let Some(arc) = self.corner(a, c)
                 {
-                    return Step::Corner { first: b, start, last: c, end };
+                    return Step::Corner { first: b, last: c, arc };
                 }
                 self.slide_back(a, b, c, &left)
             }
@@ -42,9 +42,9 @@ impl Roller<'_> {
                 if !self.is_rolling(z)
                     && z != c
                     && z != b
-                    && let Some((start, end)) = self.corner(z, b)
+                    && let Some(arc) = self.corner(z, b)
                 {
-                    return Step::Corner { first: a, start, last: b, end };
+                    return Step::Corner { first: a, last: b, arc };
                 }
                 self.slide_forward(a, b, c, &right)
             }
@@ -59,20 +59,24 @@ impl Roller<'_> {
         let reach = if excess > HALF_TURN - MIN_LINK { f64::INFINITY } else { self.r * half_turn_tangent(u, v) };
         let shorter = left.length.min(right.length);
         if reach < shorter - min_link {
-            Step::Cut { start: corner - u * reach, end: corner + v * reach }
-        } else if (left.length - right.length).abs() <= min_link {
+            let start = corner - u * reach;
+            return Step::Cut(NewArc { start, end: corner + v * reach, center: start + right_normal(u) * self.r });
+        }
+        // Both links are too short: the disk rests on their ends, or on the end of the shorter one.
+        let arc = |start: Point, end: Point| NewArc { start, end, center: center_of_chord(start, end, self.r) };
+        if (left.length - right.length).abs() <= min_link {
             self.kill(a, b, c)
         } else if left.length < right.length {
-            Step::Forward(corner + v * left.length, Meets::Angle)
+            Step::Forward(arc(left.start, corner + v * left.length), Meets::Angle)
         } else {
-            Step::Back(corner - u * right.length, Meets::Angle)
+            Step::Back(arc(corner - u * right.length, self.node(c).point), Meets::Angle)
         }
     }
 
     /// A corner with an arc of the input on at least one side.
     fn curved_corner(&self, a: u32, b: u32, c: u32, left: &Track, right: &Track) -> Step {
-        if let Some((start, end)) = self.corner(a, b) {
-            return Step::Cut { start, end };
+        if let Some(arc) = self.corner(a, b) {
+            return Step::Cut(arc);
         }
         let min_link = MIN_LINK * self.r;
         // The disk reaches beyond an end: it rests on that end and touches the other link, clear of the first.
@@ -83,11 +87,23 @@ impl Roller<'_> {
             .touch_behind(left, self.node(c).point)
             .filter(|t| t.at > min_link && self.is_clear(left.center_at(t, self.r), b));
         match (forward, back) {
-            (Some(t), Some(s)) if t.at > left.length - s.at => Step::Back(s.point, Meets::Tangent),
-            (Some(t), _) => Step::Forward(t.point, Meets::Tangent),
-            (None, Some(s)) => Step::Back(s.point, Meets::Tangent),
+            (Some(t), Some(s)) if t.at > left.length - s.at => self.back_to(&s, left, c),
+            (Some(t), _) => self.forward_to(&t, right, a),
+            (None, Some(s)) => self.back_to(&s, left, c),
             (None, None) => self.kill(a, b, c),
         }
+    }
+
+    /// The disk touches `left` and rests on node `c`.
+    fn back_to(&self, contact: &Contact, left: &Track, c: u32) -> Step {
+        let center = left.center_at(contact, self.r);
+        Step::Back(NewArc { start: contact.point, end: self.node(c).point, center }, Meets::Tangent)
+    }
+
+    /// The disk rests on node `a` and touches `right`.
+    fn forward_to(&self, contact: &Contact, right: &Track, a: u32) -> Step {
+        let center = right.center_at(contact, self.r);
+        Step::Forward(NewArc { start: self.node(a).point, end: contact.point, center }, Meets::Tangent)
     }
 
     /// Whether the disk about `center` holds no part of the link that leaves node `i`.
@@ -104,29 +120,31 @@ impl Roller<'_> {
         let at = |i: u32| self.node(i).point;
         match *step {
             Step::Refuse => true,
-            Step::Kill => self.replaces(&[at(a), at(b), at(c)], &[self.segment(a), self.segment(b)]),
-            Step::Cut { start, end } => self.replaces(&[start, at(b), end], &[]),
-            Step::Corner { first, start, last, end } => {
-                self.replaces(&[start, at(first), at(last), end], &[self.segment(first)])
+            Step::Kill => {
+                let center = center_of_chord(at(a), at(c), self.r);
+                self.replaces(center, &[at(a), at(b), at(c)], &[self.segment(a), self.segment(b)])
             }
-            Step::Back(p, meets) => {
-                let rest = Segment::line(p, at(b));
-                let links = [self.segment(b), rest];
-                self.replaces(&[p, at(b), at(c)], if meets == Meets::Tangent { &links[..1] } else { &links })
+            Step::Cut(arc) => self.replaces(arc.center, &[arc.start, at(b), arc.end], &[]),
+            Step::Corner { first, last, arc } => {
+                self.replaces(arc.center, &[arc.start, at(first), at(last), arc.end], &[self.segment(first)])
             }
-            Step::Forward(p, meets) => {
-                let rest = Segment::line(at(b), p);
-                let links = [self.segment(a), rest];
-                self.replaces(&[at(a), at(b), p], if meets == Meets::Tangent { &links[..1] } else { &links })
+            Step::Back(arc, meets) => {
+                let links = [self.segment(b), Segment::line(arc.start, at(b))];
+                let links = if meets == Meets::Tangent { &links[..1] } else { &links };
+                self.replaces(arc.center, &[arc.start, at(b), at(c)], links)
+            }
+            Step::Forward(arc, meets) => {
+                let links = [self.segment(a), Segment::line(at(b), arc.end)];
+                let links = if meets == Meets::Tangent { &links[..1] } else { &links };
+                self.replaces(arc.center, &[at(a), at(b), arc.end], links)
             }
         }
     }
 
-    /// Whether an arc of the disk from the first to the last point of `path` lies outward of it; `links` are those
-    /// that the disk does not touch by its construction.
-    fn replaces(&self, path: &[Point], links: &[Segment]) -> bool {
+    /// Whether an arc of the disk about `center` from the first to the last point of `path` lies outward of it; `links`
+    /// are those that the disk does not touch by its construction.
+    fn replaces(&self, center: Point, path: &[Point], links: &[Segment]) -> bool {
         let (from, to) = (path[0], path[path.len() - 1]);
-        let center = center_of_chord(from, to, self.r);
         let Some(u) = (to - from).try_normalize(0.0) else { return false };
         // From the end of the path back to its start through the middle of the arc: not around the centre.
         let middle = center + left_normal(u) * self.r;
@@ -137,10 +155,10 @@ impl Roller<'_> {
 
     /// The contacts of a disk that touches the links of nodes `i` and `j`, the first one before its end and the second
     /// after its start.
-    fn corner(&self, i: u32, j: u32) -> Option<(Point, Point)> {
+    fn corner(&self, i: u32, j: u32) -> Option<NewArc> {
         let (left, right) = (&self.track(i), &self.track(j));
         let (r, min_link) = (self.r, MIN_LINK * self.r);
-        let (first, second): (Contact, Contact) = if left.is_straight() && right.is_straight() {
+        let (first, second, center): (Contact, Contact, Point) = if left.is_straight() && right.is_straight() {
             let (u, w) = (left.tangent_at(left.start), right.tangent_at(right.start));
             let (sine, cosine) = (u.perp(&w), u.dot(&w));
             // A right turn, neither straight on nor straight back.
@@ -152,7 +170,10 @@ impl Roller<'_> {
             let apex = left.start + u * along;
             let reach = r * half_turn_tangent(u, w);
             let (t, s) = (along - reach, (apex - right.start).dot(&w) + reach);
-            (Contact { at: t, point: left.start + u * t }, Contact { at: s, point: right.start + w * s.max(0.0) })
+            let start = left.start + u * t;
+            let (first, second) =
+                (Contact { at: t, point: start }, Contact { at: s, point: right.start + w * s.max(0.0) });
+            (first, second, start + right_normal(u) * r)
         } else {
             // Rolling back from the corner, the disk first fits at the contacts nearest to it.
             let roots = left.carrier(r).roots(&right.carrier(r), MIN_EXCESS * r);
@@ -165,13 +186,13 @@ impl Roller<'_> {
             if !(self.is_clear(center, i) && self.is_clear(center, j)) {
                 return None;
             }
-            nearest
+            (nearest.0, nearest.1, center)
         };
         let fits = first.at > min_link
             && first.at <= left.length + min_link
             && second.at >= -min_link
             && second.at < right.length - min_link;
-        fits.then_some((first.point, second.point))
+        fits.then_some(NewArc { start: first.point, end: second.point, center })
     }
 
     /// Where a disk that rests on `p` first touches `track`, looked for from its start.
@@ -225,7 +246,7 @@ impl Roller<'_> {
         match contact {
             Some(t) if t.at > min_link => {
                 if t.at < left.length {
-                    Step::Back(t.point, Meets::Tangent)
+                    self.back_to(&t, left, c)
                 } else {
                     Step::Refuse
                 }
@@ -252,7 +273,7 @@ impl Roller<'_> {
         match contact {
             Some(t) if t.at < right.length - min_link => {
                 if t.at > 0.0 {
-                    Step::Forward(t.point, Meets::Tangent)
+                    self.forward_to(&t, right, a)
                 } else {
                     Step::Refuse
                 }
@@ -269,7 +290,7 @@ impl Roller<'_> {
         }
         let center = center_of_chord(from, to, self.r);
         // A link of the input may pass through the disk where its ends do not tell.
-        let passes = |i: u32| self.node(i).link != LinkKind::Rolling && !self.is_clear(center, i);
+        let passes = |i: u32| !self.is_rolling(i) && !self.is_clear(center, i);
         if passes(a) || passes(b) {
             return Step::Refuse;
         }
