@@ -45,6 +45,9 @@ const SAME_CENTER: f64 = 1e-3;
 /// the square of it.
 const SNAP: f64 = 1e-7;
 
+/// Rings meet that overlap by twice this, relative to the radius: those that only touch have not run into each other.
+const MEETING: f64 = 1e-7;
+
 /// Samples that decide on a ring or a walk.
 const SAMPLES: usize = 16;
 
@@ -94,6 +97,19 @@ pub(super) fn differences(scanned: &Region, raw: &Region, r: f64, resolution: f6
     places
 }
 
+/// Pairs of rings of `region` that cross each other by more than [`MEETING`], and rings that cross themselves, paired with
+/// themselves.
+pub(super) fn meetings(region: &Region, r: f64, resolution: f64) -> Vec<(usize, usize)> {
+    let noise = ROUNDING_STEPS * resolution;
+    let locus = Locus::new(region, -(MEETING * r + noise), TINY * r + noise);
+    let ring = |e: &Event| locus.pieces[e.piece as usize].ring as usize;
+    let events = crossings(&locus, r);
+    let mut pairs: Vec<(usize, usize)> = events.chunks_exact(2).map(|e| (ring(&e[0]), ring(&e[1]))).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
 /// What distances say of a sample of the locus.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Verdict {
@@ -136,7 +152,7 @@ struct Attempt<'a> {
 
 impl<'a> Attempt<'a> {
     fn new(region: &'a Region, solid: &'a Solid, r: f64, locus_radius: f64, resolution: f64) -> Attempt<'a> {
-        let locus = Locus::new(region, locus_radius, ROUNDING_STEPS * resolution);
+        let locus = Locus::new(region, locus_radius, TINY * locus_radius + ROUNDING_STEPS * resolution);
         let events = crossings(&locus, r);
         let itinerary = Itinerary::new(&events, |p| locus.pieces[p as usize].ring);
         let limit = locus_radius - (INSIDE + TINY + RING_SPREAD) * r - 2.0 * ROUNDING_STEPS * resolution;

@@ -10,6 +10,7 @@
 
 mod carrier;
 mod crossings;
+mod keep;
 mod locus;
 mod loops;
 mod merge;
@@ -17,8 +18,9 @@ mod scan;
 mod track;
 mod trim;
 
-use crate::plane::{BoundaryIndex, Bounds, Point, Region, Ring, Segment, Vector, Vertex};
+use crate::plane::{BoundaryIndex, Bounds, Point, Region, Segment, Vector, Vertex};
 use crate::units::Radius;
+use keep::{Kept, scan_ring};
 
 /// What closing means where components come near each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -26,8 +28,8 @@ use crate::units::Radius;
 pub enum Topology {
     /// The morphological closing, as a cutter sees it: components merge, holes fill, narrow inlets close.
     Merge,
-    /// The flow's own limit: every ring by itself, measured along the curve. A ring that runs into itself so that no disk
-    /// continues along it is closed in the plane, by itself.
+    /// The flow's own limit: every ring by itself, measured along the curve. Rings that run into each other, or one into
+    /// itself, are closed in the plane by themselves.
     Keep,
 }
 
@@ -87,17 +89,21 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
 }
 
 fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
-    let (scanned, unfinished) = scan_along(input, r, resolution);
-    let mut differences = merge::differences(&scanned, input, r, resolution);
-    differences.extend(unfinished);
-    let (region, absorbed) = without_absorbed(scanned, input.area() < 0.0);
+    let mut kept = Kept::new(input, r, resolution);
+    let mut differences = merge::differences(&kept.region(), input, r, resolution);
+    // Rings that cross have a locus that does.
+    if !differences.is_empty() {
+        kept.part_ways();
+    }
+    differences.append(&mut kept.places);
+    let (region, absorbed) = without_absorbed(kept.region(), input.area() < 0.0);
     differences.extend(absorbed);
     if differences.is_empty() {
         // The two meanings agree, and the merge has its distances to prove it by.
         return close_merged(input, r, resolution);
     }
     // Where a curve comes near itself the scan has no proof: it must at least not have cut into the input.
-    let contradictions = poking_out(input, &region, r, resolution);
+    let contradictions = kept.contradictions + poking_out(input, &region, r, resolution);
     Outcome { region, differences, contradictions }
 }
 
@@ -135,36 +141,6 @@ fn without_absorbed(scanned: Region, far_is_solid: bool) -> (Region, Vec<Point>)
         if ring.vertices.iter().any(belongs) { kept.push(ring.clone()) } else { absorbed.push(first.point) }
     }
     (Region::new(kept), absorbed)
-}
-
-/// Every ring rolled along by itself, and a point of every ring where that had no end.
-///
-/// A curve that runs into itself can come to a place where no disk continues along it without cutting into the solid.
-/// What the flow makes of such a ring is not told by any arc; the closing of that ring alone is where it cannot go beyond.
-fn scan_along(input: &Region, r: f64, resolution: f64) -> (Region, Vec<Point>) {
-    let (mut rings, mut unfinished) = (vec![], vec![]);
-    for ring in &input.rings {
-        let (scanned, finished) = scan_ring(ring, r, scan::Mode::Geodesic, resolution);
-        if finished {
-            rings.extend(scanned);
-            continue;
-        }
-        unfinished.extend(ring.vertices.first().map(|v| v.point));
-        let alone = close_merged(&Region::new(vec![ring.clone()]), r, resolution);
-        if alone.contradictions == 0 { rings.extend(alone.region.rings) } else { rings.extend(scanned) }
-    }
-    (Region::new(rings), unfinished)
-}
-
-/// The scanned ring, and whether the scan came to its end; nothing of a ring without links or of a hole that is filled.
-fn scan_ring(ring: &Ring, r: f64, mode: scan::Mode, resolution: f64) -> (Option<Ring>, bool) {
-    if ring.len() < 2 {
-        return (None, true);
-    }
-    let scan::Scan { ring: scanned, finished } = scan::scan(ring, r, mode, resolution);
-    // Material never vanishes in a closing.
-    let scanned = if scanned.is_empty() && ring.area() > 0.0 { ring.clone() } else { scanned };
-    (Some(scanned).filter(|ring| !ring.is_empty()), finished)
 }
 
 /// A displacement that brings the region near the origin without rounding any coordinate, or zero.
