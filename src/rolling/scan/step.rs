@@ -10,10 +10,11 @@ use crate::rolling::track::{Contact, Track};
 impl Roller<'_> {
     pub(super) fn decide(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
         let step = self.propose(a, b, c, excess);
-        // What is safe has no turn beyond half a turn, and steps outward by its construction.
-        if self.mode == Mode::Safe || self.is_outward(&step, a, b, c) { step } else { Step::Refuse }
+        // Without turns beyond half a turn, steps are outward by their construction.
+        if self.mode == Mode::Geodesic && !self.is_outward(&step, a, b, c) { Step::Refuse } else { step }
     }
 
+    #[inline]
     fn propose(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
         match (self.is_rolling(a), self.is_rolling(b)) {
             (true, true) => self.kill(a, b, c),
@@ -269,14 +270,17 @@ impl Roller<'_> {
             return Step::Refuse;
         }
         let center = center_of_chord(from, to, self.r);
-        // A link of the input may pass through the disk where its ends do not tell.
-        let passes = |i: u32| self.node(i).link != LinkKind::Rolling && !self.is_clear(center, i);
-        if passes(a) || passes(b) {
-            return Step::Refuse;
-        }
         let hidden = || (self.node(b).point - center).norm() >= self.r * (1.0 - HIDDEN);
         // Where the ends coincide there is no telling on which side of them the disk lies.
         let safe = self.mode == Mode::Geodesic || (chord > MIN_EXCESS * self.r && hidden());
+        // A link of the input may pass through the disk where its ends do not tell.
+        let passes = |i: u32, start: Point, end: Point| match self.node(i).link {
+            LinkKind::Rolling => false,
+            LinkKind::Line => Segment::line(start, end).is_nearer(center, self.clear),
+            LinkKind::Input(_) => !self.is_clear(center, i),
+        };
+        let corner = self.node(b).point;
+        let safe = safe && !passes(a, from, corner) && !passes(b, corner, to);
         if safe { Step::Kill } else { Step::Refuse }
     }
 }
