@@ -405,8 +405,10 @@ fn judge(case: &Case, number: u64) -> Findings {
     if let Some(place) = laws::truly_still(lost, input, operation, r).first() {
         wrong.push(format!("kept: {name}: the vertex {place:?} is lost"));
     }
-    if let Some(place) = laws::crossing(&merged.region, r) {
-        wrong.push(format!("crossing: {name}: at {place:?}, {} contradictions", merged.contradictions));
+    for (mode, outcome) in [("merge", &merged), ("keep", &kept)] {
+        if let Some(place) = laws::crossing(&outcome.region, r) {
+            wrong.push(format!("crossing: {mode}, {name}: at {place:?}, {} contradictions", outcome.contradictions));
+        }
     }
     if kept.differences.is_empty() {
         found.kept_proved = true;

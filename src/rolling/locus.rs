@@ -110,13 +110,14 @@ pub(super) struct Locus {
 }
 
 impl Locus {
-    /// The locus of a disk of radius `r` on the right side of all rings of `region`; lengths below `noise` mean nothing.
-    pub(super) fn new(region: &Region, r: f64, noise: f64) -> Locus {
+    /// The locus of a disk of radius `r` on the right side of all rings of `region`; lengths below `tiny` mean nothing. At a
+    /// tiny negative radius it is the boundary itself, drawn back a little.
+    pub(super) fn new(region: &Region, r: f64, tiny: f64) -> Locus {
         let mut locus = Locus { pieces: Vec::with_capacity(2 * region.vertex_count()), rings: Vec::new() };
         for (index, ring) in region.rings.iter().enumerate() {
             // The golden ratio keeps all rings apart.
             let place = (index as f64 * 0.618_033_988_749_895).fract();
-            locus.add_ring(ring, index as u32, r * (1.0 - RING_SPREAD * place), TINY * r + noise);
+            locus.add_ring(ring, index as u32, r * (1.0 - RING_SPREAD * place), tiny);
         }
         locus
     }

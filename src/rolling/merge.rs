@@ -46,6 +46,9 @@ const SAME_CENTER: f64 = 1e-3;
 /// the square of it.
 const SNAP: f64 = 1e-7;
 
+/// Rings meet that overlap by twice this, relative to the radius: those that only touch have not run into each other.
+const MEETING: f64 = 1e-7;
+
 /// Samples that decide on a ring or a walk.
 const SAMPLES: usize = 16;
 
@@ -83,17 +86,30 @@ pub(super) fn merge(prepared: &Scanned, raw: &Region, r: f64, resolution: f64) -
 
 /// Where the result of a scan along the curves may differ from the morphological closing of `raw`: crossings of the
 /// locus, and a point of every ring whose locus lies in D as a whole.
-pub(super) fn differences(scanned: &Scanned, raw: &Region, r: f64, resolution: f64) -> Vec<Point> {
+pub(super) fn differences(scanned: &Region, raw: &Region, r: f64, resolution: f64) -> Vec<Point> {
     let solid = Solid::new(raw);
-    let (rings, still) = (&scanned.region.rings, Some(&*scanned.still));
-    let mut attempt = Attempt::new(&scanned.region, still, &solid, r, r * (1.0 - SHRINK), resolution);
+    // Nothing is walked here, and no vertex asked whether it is still where it was.
+    let mut attempt = Attempt::new(scanned, None, &solid, r, r * (1.0 - SHRINK), resolution);
     let mut places: Vec<Point> = attempt.events.iter().step_by(2).map(|e| e.point).collect();
-    for (ring, verdict) in rings.iter().zip(attempt.ring_verdicts()) {
+    for (ring, verdict) in scanned.rings.iter().zip(attempt.ring_verdicts()) {
         if verdict == Some(Verdict::Covered) {
             places.extend(ring.vertices.first().map(|v| v.point));
         }
     }
     places
+}
+
+/// Pairs of rings of `region` that cross each other by more than [`MEETING`], and rings that cross themselves, paired with
+/// themselves.
+pub(super) fn meetings(region: &Region, r: f64, resolution: f64) -> Vec<(usize, usize)> {
+    let noise = ROUNDING_STEPS * resolution;
+    let locus = Locus::new(region, -(MEETING * r + noise), TINY * r + noise);
+    let ring = |e: &Event| locus.pieces[e.piece as usize].ring as usize;
+    let events = crossings(&locus, r);
+    let mut pairs: Vec<(usize, usize)> = events.chunks_exact(2).map(|e| (ring(&e[0]), ring(&e[1]))).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
 }
 
 /// What distances say of a sample of the locus.
@@ -147,7 +163,7 @@ impl<'a> Attempt<'a> {
         locus_radius: f64,
         resolution: f64,
     ) -> Attempt<'a> {
-        let locus = Locus::new(region, locus_radius, ROUNDING_STEPS * resolution);
+        let locus = Locus::new(region, locus_radius, TINY * locus_radius + ROUNDING_STEPS * resolution);
         let events = crossings(&locus, r);
         let itinerary = Itinerary::new(&events, |p| locus.pieces[p as usize].ring);
         let limit = locus_radius - (INSIDE + TINY + RING_SPREAD) * r - 2.0 * ROUNDING_STEPS * resolution;

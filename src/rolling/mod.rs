@@ -11,6 +11,7 @@
 mod carrier;
 mod crossings;
 mod excess;
+mod keep;
 mod locus;
 mod loops;
 mod merge;
@@ -20,8 +21,9 @@ mod trim;
 
 use std::f64::consts::PI;
 
-use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Ring, Segment, Vector, Vertex};
+use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Segment, Vector, Vertex};
 use crate::units::Radius;
+use keep::Kept;
 
 /// What closing means where components come near each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -29,8 +31,8 @@ use crate::units::Radius;
 pub enum Topology {
     /// The morphological closing, as a cutter sees it: components merge, holes fill, narrow inlets close.
     Merge,
-    /// The flow's own limit: every ring by itself, measured along the curve. A ring that runs into itself so that no disk
-    /// continues along it is closed in the plane, by itself.
+    /// The flow's own limit: every ring by itself, measured along the curve. Rings that run into each other, or one into
+    /// itself, are closed in the plane by themselves.
     Keep,
 }
 
@@ -95,7 +97,7 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
     // What an unfinished scan leaves undone the merge does.
     let mut prepared = Scanned::default();
     for ring in &region.rings {
-        prepared.extend(scan_ring(ring, r, scan::Mode::Safe, resolution));
+        prepared.extend(scan::scan(ring, r, scan::Mode::Safe, resolution));
     }
     let merged = merge::merge(&prepared, region, r, resolution);
     let mut contradictions = merged.contradictions;
@@ -108,17 +110,21 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
 }
 
 fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
-    let (scanned, unfinished) = scan_along(input, r, resolution);
-    let mut differences = merge::differences(&scanned, input, r, resolution);
-    differences.extend(unfinished);
-    let (region, absorbed) = without_absorbed(scanned.region, input.area() < 0.0);
+    let mut kept = Kept::new(input, r, resolution);
+    let mut differences = merge::differences(&kept.region(), input, r, resolution);
+    // Rings that cross have a locus that does.
+    if !differences.is_empty() {
+        kept.part_ways();
+    }
+    differences.append(&mut kept.places);
+    let (region, absorbed) = without_absorbed(kept.region(), input.area() < 0.0);
     differences.extend(absorbed);
     if differences.is_empty() {
         // The two meanings agree, and the merge has its distances to prove it by.
         return close_merged(input, r, resolution);
     }
     // Where a curve comes near itself the scan has no proof: it must at least not have cut into the input.
-    let contradictions = poking_out(input, &region, r, resolution);
+    let contradictions = kept.contradictions + poking_out(input, &region, r, resolution);
     Outcome { region, differences, contradictions }
 }
 
@@ -174,45 +180,6 @@ impl Scanned {
             self.still.push(scan.still);
         }
     }
-}
-
-/// Every ring rolled along by itself, and a point of every ring where that had no end.
-///
-/// A curve that runs into itself can come to a place where no disk continues along it without cutting into the solid.
-/// What the flow makes of such a ring is not told by any arc; the closing of that ring alone is where it cannot go beyond.
-fn scan_along(input: &Region, r: f64, resolution: f64) -> (Scanned, Vec<Point>) {
-    let (mut scanned, mut unfinished) = (Scanned::default(), vec![]);
-    for ring in &input.rings {
-        let scan = scan_ring(ring, r, scan::Mode::Geodesic, resolution);
-        if scan.finished {
-            scanned.extend(scan);
-            continue;
-        }
-        unfinished.extend(ring.vertices.first().map(|v| v.point));
-        let alone = close_merged(&Region::new(vec![ring.clone()]), r, resolution);
-        if alone.contradictions > 0 {
-            scanned.extend(scan);
-            continue;
-        }
-        for ring in alone.region.rings {
-            scanned.still.push(vec![false; ring.len()]);
-            scanned.region.rings.push(ring);
-        }
-    }
-    (scanned, unfinished)
-}
-
-/// The scanned ring; an empty one of a ring without links and of a hole that is filled.
-fn scan_ring(ring: &Ring, r: f64, mode: scan::Mode, resolution: f64) -> scan::Scan {
-    if ring.len() < 2 {
-        return scan::Scan { ring: Ring::default(), still: vec![], finished: true };
-    }
-    let scan = scan::scan(ring, r, mode, resolution);
-    if scan.ring.is_empty() && ring.area() > 0.0 {
-        // Material never vanishes in a closing.
-        return scan::Scan { ring: ring.clone(), still: vec![true; ring.len()], ..scan };
-    }
-    scan
 }
 
 /// A displacement that brings the region near the origin without rounding any coordinate, or zero.

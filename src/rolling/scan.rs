@@ -74,9 +74,17 @@ pub(super) struct Scan {
 
 /// Rolls a disk of radius `r` along the right side of `ring`, whose coordinates are known to `resolution`.
 pub(super) fn scan(ring: &Ring, r: f64, mode: Mode, resolution: f64) -> Scan {
+    if ring.len() < 2 {
+        return Scan { ring: Ring::default(), still: vec![], finished: true };
+    }
     let mut roller = Roller::new(ring, r, mode, resolution);
     roller.run();
-    roller.finish()
+    let scan = roller.finish();
+    if scan.ring.is_empty() && ring.area() > 0.0 {
+        // Material never vanishes in a closing.
+        return Scan { ring: ring.clone(), still: vec![true; ring.len()], ..scan };
+    }
+    scan
 }
 
 /// The outgoing link of a node.

@@ -1,6 +1,6 @@
 //! What to do at one node: where a new arc of the disk goes, decided before anything is changed.
 
-use super::{HIDDEN, MIN_EXCESS, MIN_LINK, Meets, Mode, NewArc, Roller, Step};
+use super::{HIDDEN, LinkKind, MIN_EXCESS, MIN_LINK, Meets, Mode, NewArc, Roller, Step};
 use crate::plane::{Point, Segment, left_normal, right_normal};
 use crate::rolling::carrier::{Carrier, center_of_chord};
 use crate::rolling::excess::{HALF_TURN, half_turn_tangent};
@@ -9,10 +9,11 @@ use crate::rolling::track::{Contact, Track};
 impl Roller<'_> {
     pub(super) fn decide(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
         let step = self.propose(a, b, c, excess);
-        // What is safe has no turn beyond half a turn, and steps outward by its construction.
-        if self.mode == Mode::Safe || self.is_outward(&step, a, b, c) { step } else { Step::Refuse }
+        // Without turns beyond half a turn, steps are outward by their construction.
+        if self.mode == Mode::Geodesic && !self.is_outward(&step, a, b, c) { Step::Refuse } else { step }
     }
 
+    #[inline]
     fn propose(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
         match (self.is_rolling(a), self.is_rolling(b)) {
             (true, true) => self.kill(a, b, c),
@@ -289,14 +290,17 @@ impl Roller<'_> {
             return Step::Refuse;
         }
         let center = center_of_chord(from, to, self.r);
-        // A link of the input may pass through the disk where its ends do not tell.
-        let passes = |i: u32| !self.is_rolling(i) && !self.is_clear(center, i);
-        if passes(a) || passes(b) {
-            return Step::Refuse;
-        }
         let hidden = || (self.node(b).point - center).norm() >= self.r * (1.0 - HIDDEN);
         // Where the ends coincide there is no telling on which side of them the disk lies.
         let safe = self.mode == Mode::Geodesic || (chord > MIN_EXCESS * self.r && hidden());
+        // A link of the input may pass through the disk where its ends do not tell.
+        let passes = |i: u32, start: Point, end: Point| match self.node(i).link {
+            LinkKind::Rolling(_) => false,
+            LinkKind::Line => Segment::line(start, end).is_nearer(center, self.clear),
+            LinkKind::Input(_) => !self.is_clear(center, i),
+        };
+        let corner = self.node(b).point;
+        let safe = safe && !passes(a, from, corner) && !passes(b, corner, to);
         if safe { Step::Kill } else { Step::Refuse }
     }
 }
