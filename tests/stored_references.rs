@@ -109,7 +109,7 @@ fn countries_agree_with_their_stored_references() {
         }
         let closed = arcs::closing(&input, radius, operation).unwrap().region;
         let start = std::time::Instant::now();
-        let lost = lost_features(&input, &closed, radius).len();
+        let lost = lost_features(&input, &closed, radius, operation).len();
         println!("{key}: {lost} lost features in {:.1} ms", start.elapsed().as_secs_f64() * 1e3);
         assert!(lost > 0, "{key}");
     }

@@ -597,8 +597,9 @@ fn dashes_without_end_are_refused_and_many_shapes_are_read() {
         assert!(text.contains("id=\"fine\"") && text.contains("longer stroke-dasharray"), "{text}");
     }
     // Items of one clip path are cut together: the same area as each by itself.
-    let squares: String =
-        (0..40).map(|k| format!("<rect x=\"{}\" y=\"{}\" width=\"5\" height=\"5\"/>", k % 8 * 12, k / 8 * 12)).collect();
+    let squares: String = (0..40)
+        .map(|k| format!("<rect x=\"{}\" y=\"{}\" width=\"5\" height=\"5\"/>", k % 8 * 12, k / 8 * 12))
+        .collect();
     let clip = "<clipPath id=\"c\"><rect x=\"2\" width=\"90\" height=\"50\"/></clipPath>";
     let together = drawing(&format!("{clip}<g clip-path=\"url(#c)\">{squares}</g>"));
     let apart = drawing(&format!("{clip}{}", squares.replace("<rect", "<rect clip-path=\"url(#c)\"")));

@@ -19,6 +19,7 @@ use crate::gcode::{self, Arcs, Controller, Dialect, Finding, LintOptions, Units,
 use crate::io::svg::Drawing;
 use crate::plane::Region;
 use crate::preview::{self, DEFAULT_SIZE, Scene};
+use crate::reference::Operation;
 use crate::rolling;
 use crate::units::{Length, Radius, Speed};
 
@@ -295,7 +296,12 @@ fn make_plan(args: &MillArgs, part: &Region, job: &Job) -> Result<Plan> {
         Side::Inside => closed.reversed(),
     }
     .translated(toolpath.translation);
-    let lost = if radius > 0.0 { lost_features(&part, &kept, Radius::new(radius)?) } else { vec![] };
+    // Seen from the drawing: inside, it is the tool's pocket that is opened.
+    let operation = match job.side {
+        Side::Outside | Side::On => Operation::Close,
+        Side::Inside => Operation::Open,
+    };
+    let lost = if radius > 0.0 { lost_features(&part, &kept, Radius::new(radius)?, operation) } else { vec![] };
     Ok(Plan { part, kept, toolpath, lost, contradictions })
 }
 
