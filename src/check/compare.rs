@@ -41,13 +41,13 @@ pub fn compare(input: &Region, output: &Region, reference: &Reference, radius: R
     let mut mask = Vec::new();
     for piece in pieces(input, truth, larger, smaller, r) {
         if piece.is_topological() {
-            mask.push((BoundaryIndex::new(&piece.outline), piece.outline));
+            mask.push(BoundaryIndex::new(&piece.outline));
         }
     }
     let resolution = RESOLUTION * r;
     let hide = |p: Point, reach: f64| {
         let near = TOPOLOGY_REACH * r + reach;
-        near > 0.0 && mask.iter().any(|(index, outline)| index.is_nearer(p, near) || outline.contains(p))
+        near > 0.0 && mask.iter().any(|index| index.is_nearer(p, near) || index.winding_number(p) > 0)
     };
     let distance = |hidden: &dyn Fn(Point, f64) -> bool| {
         let forth = farthest(output, &truth_index, resolution, |_, d| d, hidden);

@@ -12,6 +12,12 @@ use crate::plane::{BoundaryIndex, Link, Point, Region, Segment};
 /// other.
 pub(super) const RESOLUTION: f64 = 1e-6;
 
+/// What is above the best by less than this part of the resolution is rounding.
+const NOISE: f64 = 1e-4;
+
+/// Rounding of the end of an arc, over the length that is looked at.
+const ROUNDING: f64 = 1e-9;
+
 /// Stretches are looked into at most so often for each element, and 10 000 times more in all: beyond, the best point so far
 /// has to do. Only boundaries that are everywhere apart by the same distance, along curves of different kinds, come near it.
 const MOST_LOOKS: usize = 1 << 10;
@@ -76,10 +82,9 @@ pub(super) fn farthest(
         if so_far.is_infinite() {
             break;
         }
-        if length <= resolution || looks == 0 || stretch.most(other, length) <= so_far + resolution * 1e-6 {
+        if length <= resolution || looks == 0 || stretch.most(other, length) <= so_far + resolution * NOISE {
             continue;
         }
-        // What is far below the best needs no better bound; what may be above it is halved.
         let t = 0.5 * (stretch.from.0 + stretch.to.0);
         let middle = look(stretch.element.point_at(t));
         consider(&middle);
@@ -99,20 +104,22 @@ impl Stretch<'_> {
         let (a, b) = (&self.from.1, &self.to.1);
         let by_slope = 0.5 * (a.height + b.height + length);
         let (Some(i), Some(j)) = (a.nearest, b.nearest) else { return by_slope };
-        if i != j {
-            return by_slope;
-        }
-        let highest = a.height.abs().max(b.height.abs());
-        match (self.element.link, other.segments()[i].link) {
-            // The distance from a straight line is convex along a straight line.
-            (Link::Line, Link::Line) => by_slope.min(highest),
-            // Both ends lie beside the arc, and so does what is between them.
-            (Link::Arc(own), Link::Arc(arc)) => {
-                let apart = (own.radius - arc.radius).abs() + (own.center - arc.center).norm();
-                by_slope.min(highest.max(apart))
+        let along = |k: usize| {
+            let other = other.segments()[k];
+            let highest = other.nearest(a.place).distance.max(other.nearest(b.place).distance);
+            match (self.element.link, other.link) {
+                // The distance from a straight line is convex along a straight line.
+                (Link::Line, Link::Line) => highest,
+                // Both ends lie beside the arc or at its end, and so does what is between them.
+                (Link::Arc(own), Link::Arc(arc)) => {
+                    let apart = (own.radius - arc.radius).abs() + (own.center - arc.center).norm();
+                    if highest <= apart + ROUNDING * length { 2.0 * apart + ROUNDING * length } else { f64::INFINITY }
+                }
+                _ => f64::INFINITY,
             }
-            _ => by_slope,
-        }
+        };
+        // Where elements meet, either may be the nearest.
+        by_slope.min(along(i)).min(if i == j { f64::INFINITY } else { along(j) })
     }
 }
 

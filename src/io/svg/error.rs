@@ -228,6 +228,20 @@ pub enum WarningKind {
     /// Digits that went through single precision.
     #[error("its position is known to seven digits only (a transform or unit that needs context)")]
     SinglePrecision,
+    /// A view box that cannot be read.
+    #[error("viewBox=\"{text}\" is not four numbers with width and height above zero: the physical size is not known")]
+    InvalidViewBox {
+        /// What is there.
+        text: String,
+    },
+    /// Text in a font that is not there.
+    #[error("text asks for the font \"{asked}\", which is not installed: set in \"{taken}\"; --font names another")]
+    FontReplaced {
+        /// The family that the text asks for.
+        asked: String,
+        /// The family that it is set in.
+        taken: String,
+    },
     /// `preserveAspectRatio="none"` with different scales.
     #[error("the drawing is stretched unevenly (preserveAspectRatio=\"none\"): its physical size is not used")]
     UnevenScale,

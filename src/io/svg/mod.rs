@@ -81,7 +81,8 @@ fn read_with(bytes: &[u8], options: &ReadOptions, other: Option<&Drawing>) -> Re
     let source = Source::new(&document, &prefix);
     leftovers::refuse_huge(&source)?;
     let page = Page::of_root(root);
-    let tree = fonts::tree(&document, options)?.map_err(|error| refusal(error, source.place(root).line))?;
+    let (tree, replaced) = fonts::tree(&document, options)?;
+    let tree = tree.map_err(|error| refusal(error, source.place(root).line))?;
 
     let (group, outer) = below_root(&tree, root, &page);
     let mut collection = Collector::new(&source, options.strokes).collect(group, outer)?;
@@ -94,9 +95,14 @@ fn read_with(bytes: &[u8], options: &ReadOptions, other: Option<&Drawing>) -> Re
         return Err(ReadError::NothingFilled { found: collection.found, warnings: collection.warnings });
     }
     let mut warnings = collection.warnings;
+    let mut warn = |kind| warnings.push(Warning { place: source.place(root), kind });
+    replaced.into_iter().for_each(|(asked, taken)| warn(WarningKind::FontReplaced { asked, taken }));
+    if page.has_invalid_view_box() {
+        warn(WarningKind::InvalidViewBox { text: page.view_box.clone().unwrap_or_default() });
+    }
     let unit = page.unit_size();
     if unit == UnitSize::Uneven {
-        warnings.push(Warning { place: source.place(root), kind: WarningKind::UnevenScale });
+        warn(WarningKind::UnevenScale);
     }
     warnings.sort_by_key(|w| w.place.line);
     let mm_per_unit = match (options.width_mm, options.dpi, unit) {
