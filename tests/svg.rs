@@ -606,3 +606,35 @@ fn dashes_without_end_are_refused_and_many_shapes_are_read() {
     assert!((together.region.area() - apart.region.area()).abs() < 1e-9);
     assert!((together.region.area() - 836.0).abs() < 1e-9);
 }
+
+#[test]
+fn arcs_flatter_than_rounding_are_lines() {
+    let flat = drawing("<path d='M10 10A1e12 1e12 0 0 1 20 20L30 10Z'/>");
+    let plain = drawing("<path d='M10 10L20 20L30 10Z'/>");
+    assert_eq!(points(&flat), points(&plain));
+    assert!(flat.region.segments().all(|s| s.link == Link::Line));
+    // The long way round is a circle beyond all coordinates, and a radius of 1e7 still bulges.
+    assert!(matches!(
+        read(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9'><path d='M10 10A1e12 1e12 0 1 1 20 20L30 10Z'/></svg>"
+        ),
+        Err(ReadError::Huge { .. })
+    ));
+    let round = drawing("<path d='M10 10A1e7 1e7 0 0 1 20 20L30 10Z'/>");
+    assert!(round.region.segments().any(|s| s.link != Link::Line));
+}
+
+#[cfg(feature = "text")]
+#[test]
+fn generic_and_common_families_are_set_in_an_installed_font_that_is_named() {
+    if font_file().is_none() {
+        return;
+    }
+    for family in ["sans-serif", "serif", "monospace", "Arial", "Times New Roman", "Courier New"] {
+        let set = read(&TEXT.replace("No Such Family", family)).unwrap();
+        assert!(set.region.topology().components >= 2, "{family}");
+        for kind in kinds(&set) {
+            assert!(matches!(kind, WarningKind::FontReplaced { asked, .. } if asked == family), "{kind:?}");
+        }
+    }
+}

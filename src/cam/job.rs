@@ -196,8 +196,8 @@ pub enum JobProblem {
     },
     /// The tool would travel through the stock.
     #[error(
-        "safe-height is {safe_height} mm, not above stock-top, {stock_top} mm: \
-         try safe-height = {}", stock_top + DEFAULT_SAFE_CLEARANCE
+        "safe-height is {} mm, not above stock-top, {} mm: try safe-height = {}",
+        Brief(*.safe_height), Brief(*.stock_top), Brief(stock_top + DEFAULT_SAFE_CLEARANCE)
     )]
     SafeHeightTooLow {
         /// z of travel.
@@ -206,7 +206,10 @@ pub enum JobProblem {
         stock_top: f64,
     },
     /// depth / depth-per-pass is absurd.
-    #[error("depth {depth} mm at depth-per-pass {depth_per_pass} mm takes more than {LARGEST_PASS_COUNT} passes")]
+    #[error(
+        "depth {} mm at depth-per-pass {} mm takes more than {LARGEST_PASS_COUNT} passes",
+        Brief(*.depth), Brief(*.depth_per_pass)
+    )]
     TooManyPasses {
         /// Total depth.
         depth: f64,

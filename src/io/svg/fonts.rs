@@ -49,7 +49,7 @@ mod with_text {
     use std::collections::{BTreeSet, HashMap};
     use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-    use usvg::fontdb::{Database, Family, ID, Query, Source};
+    use usvg::fontdb::{Database, Family, ID, Query, Source, Style, Weight};
 
     use super::{ReadError, ReadOptions};
 
@@ -57,22 +57,22 @@ mod with_text {
     /// system, and a file of nothing but such characters would take minutes; beyond, a character counts as missing.
     const MAX_SEARCHES: usize = 128;
 
-    /// Families that are not there and may be replaced by an installed one: the generic ones, and those that drawing
+    /// Families that are not there and may be replaced by an installed one, beside the generic ones: those that drawing
     /// programs write where nobody chose. In place of any other none is taken: a part with other letters than drawn is
     /// worse than none.
-    const COMMON: [&str; 12] = [
-        "Arial",
-        "Helvetica",
-        "Verdana",
-        "Tahoma",
-        "Segoe UI",
-        "sans",
-        "Times New Roman",
-        "Times",
-        "Georgia",
-        "Courier New",
-        "Courier",
-        "Consolas",
+    const COMMON: [(&str, Family); 12] = [
+        ("Arial", Family::SansSerif),
+        ("Helvetica", Family::SansSerif),
+        ("Verdana", Family::SansSerif),
+        ("Tahoma", Family::SansSerif),
+        ("Segoe UI", Family::SansSerif),
+        ("sans", Family::SansSerif),
+        ("Times New Roman", Family::Serif),
+        ("Times", Family::Serif),
+        ("Georgia", Family::Serif),
+        ("Courier New", Family::Monospace),
+        ("Courier", Family::Monospace),
+        ("Consolas", Family::Monospace),
     ];
 
     /// What stands in for the generic families, the first that is installed.
@@ -150,15 +150,22 @@ mod with_text {
         Box::new(move |font, fonts| {
             let wanted: Vec<String> = font.families().iter().map(|f| f.to_string().replace('"', "")).collect();
             let is_there = |name: &String| has_family(fonts, name);
-            let is_common = |name: &String| COMMON.iter().any(|c| c.eq_ignore_ascii_case(name));
+            let common = || wanted.iter().find_map(|name| COMMON.iter().find(|(c, _)| c.eq_ignore_ascii_case(name)));
             let is_generic = |family: &usvg::FontFamily| !matches!(family, usvg::FontFamily::Named(_));
             // Where a file was named, its font stands for all generic families, and stands in memory.
             let has_file = fonts.faces().next().is_some_and(|face| matches!(face.source, Source::Binary(_)));
-            let may_replace = has_file || font.families().iter().any(is_generic) || wanted.iter().any(is_common);
-            if !may_replace && !wanted.iter().any(is_there) {
-                return None;
-            }
-            let id = select(font, fonts)?;
+            let id = if has_file || font.families().iter().any(is_generic) || wanted.iter().any(is_there) {
+                select(font, fonts)?
+            } else {
+                let (_, generic) = common()?;
+                let style = match font.style() {
+                    usvg::FontStyle::Normal => Style::Normal,
+                    usvg::FontStyle::Italic => Style::Italic,
+                    usvg::FontStyle::Oblique => Style::Oblique,
+                };
+                let weight = Weight(font.weight());
+                fonts.query(&Query { families: &[*generic], weight, style, ..Query::default() })?
+            };
             let taken = fonts.face(id).and_then(|face| face.families.first().map(|(name, _)| name.clone()))?;
             let is_wanted = fonts.face(id).is_some_and(|face| {
                 face.families.iter().any(|(name, _)| wanted.iter().any(|w| w.eq_ignore_ascii_case(name)))
