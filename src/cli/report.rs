@@ -287,3 +287,44 @@ fn describe(feature: &LostFeature, job: &Job) -> String {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cam::{CertifyOptions, certify};
+    use crate::gcode::read;
+    use crate::plane::{Point, Ring};
+
+    /// Around a square of 10 mm with a tool of 4 mm, and the same without the last side.
+    const AROUND: &str = "G21 G90 G17 G94\nG0 Z5\nM3 S1000\nG4 P2\nG0 X-2 Y0\nG1 Z-1 F100\nG1 Y10 F600\nG2 X0 Y12 I2 J0\n\
+        G1 X10\nG2 X12 Y10 I0 J-2\nG1 Y0\nG2 X10 Y-2 I-2 J0\n";
+
+    #[test]
+    fn a_part_that_hangs_on_the_stock_fails() {
+        let part = Region::new(vec![Ring::polygon(
+            [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]].map(|p| Point::new(p[0], p[1])),
+        )]);
+        let verdict = |end: &str, side: Side| {
+            let program = read(&format!("{AROUND}{end}G0 Z5\nM5\nM2\n")).unwrap();
+            let certificate = certify(&program, &part, &part, &CertifyOptions::new(2.0));
+            let job = Job { side, ..Job::default() };
+            let report = MillReport {
+                input: Path::new("square.svg"),
+                job: &job,
+                dialect: "grbl",
+                options: WriteOptions { units: Units::Millimetres, arcs: Arcs::Arcs },
+                part: &part,
+                certificate: &certificate,
+                lost: &[],
+                findings: &[],
+                contradictions: 0,
+                accept_losses: false,
+                written: &[],
+            };
+            (report.verdict(), report.text().contains("NOT CUT FREE"))
+        };
+        assert_eq!(verdict("G1 X0\nG2 X-2 Y0 I0 J2\n", Side::Outside), (Verdict::Good, false));
+        assert_eq!(verdict("", Side::Outside), (Verdict::Failed, true));
+        assert_eq!(verdict("", Side::On), (Verdict::Good, false));
+    }
+}
