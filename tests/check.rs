@@ -16,7 +16,7 @@ fn closed(region: &Region, r: f64, operation: Operation) -> Region {
 }
 
 fn lost(region: &Region, r: f64, operation: Operation) -> Vec<LostFeature> {
-    lost_features(region, &closed(region, r, operation), radius(r))
+    lost_features(region, &closed(region, r, operation), radius(r), operation)
 }
 
 fn report(input: &Region, output: &Region, operation: Operation) -> Report {

@@ -345,3 +345,120 @@ fn a_full_disk_is_told_and_a_mute_standard_error_is_no_crash() {
     let mute = run(&["close", "part.svg", "-r", "1mm", "-o", "closed.svg"]).stderr(full()).status().unwrap();
     assert_eq!(mute.code(), Some(0));
 }
+
+#[test]
+fn certificates_say_what_the_flags_make_of_the_program() {
+    let dir = folder();
+    draw(dir.path(), "plate.svg", &format!("{SIZED}{PLATE}"));
+    let words = |arguments: &[&str]| {
+        let output = mill(dir.path(), &[&["plate.svg", "--accept-losses"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}{}", stdout(&output), stderr(&output));
+        stdout(&output).to_owned()
+    };
+    let line = |text: &str, label: &str| text.lines().find(|l| l.starts_with(label)).map(str::to_owned);
+    // Broken into lines, the path keeps the radius that it had.
+    let (arcs, lines) = (words(&[]), words(&["--no-arcs"]));
+    let path = line(&arcs, "path").unwrap();
+    assert!(!path.contains("0.000") && !path.contains("lines"), "{path}");
+    assert_eq!(line(&lines, "path").unwrap(), format!("{path} (before it was broken into lines)"));
+    // Inches beside millimetres, and only there.
+    let inches = words(&["--inches"]);
+    assert!(line(&inches, "part").unwrap().contains("50.00 x 30.00 mm (1.9685 x 1.1811 in)"), "{inches}");
+    assert!(line(&inches, "tool").unwrap().contains("3.175 mm (0.12500 in)"), "{inches}");
+    assert!(!arcs.contains(" in)"), "{arcs}");
+    // On the outline nothing is gouged: half of the tool's width is meant.
+    let on = words(&["--side", "on"]);
+    assert!(line(&on, "gouge").is_none() && line(&on, "uncut").is_none(), "{on}");
+    assert!(line(&on, "centre").is_some() && on.contains("1.587 mm on either side"), "{on}");
+}
+
+#[test]
+fn a_job_file_sets_what_the_flags_do() {
+    let dir = folder();
+    draw(dir.path(), "plate.svg", &format!("{SIZED}{PLATE}"));
+    draw(dir.path(), "job.toml", "dialect = \"linuxcnc\"\nno-arcs = true\ninches = true\ntopology = \"keep\"\n");
+    let output = mill(dir.path(), &["plate.svg", "--job", "job.toml", "-o", "from-file.nc"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let arguments = ["--dialect", "linuxcnc", "--no-arcs", "--inches", "--topology", "keep"];
+    let output = mill(dir.path(), &[&["plate.svg", "-o", "from-flags.nc"], &arguments[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = |name: &str| fs::read_to_string(dir.path().join(name)).unwrap();
+    assert_eq!(text("from-file.nc"), text("from-flags.nc"));
+    assert!(text("from-file.nc").contains("G20") && !text("from-file.nc").contains("G2 X"));
+    // Flags beat the file.
+    let output = mill(dir.path(), &["plate.svg", "--job", "job.toml", "--dialect", "grbl", "-o", "grbl.nc"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(text("grbl.nc").contains("dialect grbl") && !text("grbl.nc").contains("G64"));
+    draw(dir.path(), "job.toml", "dialect = \"fanuc\"\n");
+    let output = mill(dir.path(), &["plate.svg", "--job", "job.toml"]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("grbl, linuxcnc"), "{}", stderr(&output));
+}
+
+#[test]
+fn what_was_written_for_one_controller_is_linted_for_it() {
+    let dir = folder();
+    draw(dir.path(), "plate.svg", &format!("{SIZED}{PLATE}"));
+    mill(dir.path(), &["plate.svg", "-o", "part.nc", "--dialect", "linuxcnc"]);
+    let lint = |arguments: &[&str]| clopen(dir.path()).arg("lint").args(arguments).output().unwrap();
+    let text = fs::read_to_string(dir.path().join("part.nc")).unwrap();
+    assert!(text.contains("G64"));
+    let output = lint(&["part.nc"]);
+    assert!(output.status.code() == Some(0) && output.stdout.is_empty(), "{}", stdout(&output));
+    assert_eq!(lint(&["part.nc", "--controller", "both"]).status.code(), Some(1));
+    // The same from somebody else runs on either, or it is said.
+    draw(dir.path(), "other.nc", &text.replace("(clopen", "(other"));
+    assert_eq!(lint(&["other.nc"]).status.code(), Some(1));
+    // What follows the end is said once; comments and % may follow.
+    draw(dir.path(), "after.nc", &(text.clone() + "(end)\n%\n"));
+    assert!(lint(&["after.nc"]).stdout.is_empty());
+    draw(dir.path(), "after.nc", &(text + "G0 Z-3\nG1 X9\n"));
+    let output = lint(&["after.nc"]);
+    assert_eq!(stdout(&output).matches("follows M2 or M30").count(), 1, "{}", stdout(&output));
+}
+
+#[test]
+fn drawings_without_size_and_numbers_without_sense_get_one_short_sentence() {
+    let dir = folder();
+    let invalid = SIZED.replace("0 0 60 40", "a b c");
+    draw(dir.path(), "plate.svg", &format!("{SIZED}{PLATE}"));
+    draw(dir.path(), "invalid.svg", &format!("{invalid}{PLATE}"));
+    let refused = |arguments: &[&str]| {
+        let output = clopen(dir.path()).args(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stdout(&output));
+        stderr(&output).to_owned()
+    };
+    let text = refused(&["mill", "invalid.svg"]);
+    assert!(
+        text.contains("viewBox=\"a b c\"") && text.contains("no physical size") && text.contains("--dpi"),
+        "{text}"
+    );
+    for arguments in [
+        ["close", "plate.svg", "-r", "1e300mm"],
+        ["close", "plate.svg", "-r", "1e-300mm"],
+        ["mill", "plate.svg", "--feed", "1e300"],
+        ["mill", "plate.svg", "--depth", "1e300"],
+    ] {
+        let text = refused(&arguments);
+        assert!(text.len() < 300 && !text.contains("0000000000"), "{text}");
+    }
+    assert!(refused(&["close", "plate.svg", "-r", "2furlongs"]).contains("a bare number is millimetres"));
+    // A font that is none is a slip even where there is no text.
+    let text = refused(&["close", "plate.svg", "-r", "1mm", "--font", "/nonexistent"]);
+    assert!(text.contains("/nonexistent"), "{text}");
+    draw(dir.path(), "huge.nc", &format!("G21 G90 X{} ?{}\n", "9".repeat(4000), "!".repeat(4000)));
+    let output = clopen(dir.path()).args(["lint", "huge.nc"]).output().unwrap();
+    assert!(output.status.code() == Some(1) && output.stdout.len() < 1000, "{}", stdout(&output));
+}
+
+#[test]
+fn a_check_against_nothing_is_infinite_in_words_of_json() {
+    let dir = folder();
+    draw(dir.path(), "plate.svg", &format!("{SIZED}{PLATE}"));
+    draw(dir.path(), "empty.svg", &format!("{SIZED}</svg>"));
+    let arguments = ["check", "plate.svg", "empty.svg", "-r", "1mm", "--format", "json"];
+    let output = clopen(dir.path()).args(arguments).output().unwrap();
+    let value: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(value["hausdorff"]["reference_to_output_units"], "infinite");
+    assert_eq!(value["hausdorff"]["largest_over_r"], "infinite");
+}

@@ -268,7 +268,10 @@ fn offset_references_agree_with_the_stored_ones_on_countries() {
             let distance = compare(&input, &stored, &reference, radius, operation).hausdorff.largest_over_r;
             distances.push((method, distance, reference.error_bound / radius.get()));
         }
-        (distances, lost_features(&input, &arcs::closing(&input, radius, operation).unwrap().region, radius).len())
+        (
+            distances,
+            lost_features(&input, &arcs::closing(&input, radius, operation).unwrap().region, radius, operation).len(),
+        )
     });
     let mut count = 0;
     for (Entry { key, .. }, (distances, lost)) in countries.iter().zip(&compared) {

@@ -578,3 +578,63 @@ fn a_font_that_is_none_is_refused_and_no_font_is_said() {
         assert!(error.to_string().contains("--font"), "{error}");
     }
 }
+
+#[test]
+fn dashes_without_end_are_refused_and_many_shapes_are_read() {
+    let dashed = |length: &str, ways: usize| {
+        let way = format!(
+            "<path id=\"fine\" d=\"M0 0L90 90\" stroke=\"black\" stroke-width=\"0.1\" stroke-dasharray=\"{length}\"/>"
+        );
+        let text =
+            format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 100 100\">{}</svg>", way.repeat(ways));
+        svg::read(text.as_bytes(), &ReadOptions { strokes: Strokes::Areas, ..ReadOptions::default() })
+    };
+    assert!(dashed("0.5", 1).is_ok());
+    for (length, ways) in [("0.0001", 1), ("0.003", 8)] {
+        let error = dashed(length, ways).unwrap_err();
+        assert!(matches!(error, ReadError::TooManyDashes { .. }), "{error}");
+        let text = error.to_string();
+        assert!(text.contains("id=\"fine\"") && text.contains("longer stroke-dasharray"), "{text}");
+    }
+    // Items of one clip path are cut together: the same area as each by itself.
+    let squares: String = (0..40)
+        .map(|k| format!("<rect x=\"{}\" y=\"{}\" width=\"5\" height=\"5\"/>", k % 8 * 12, k / 8 * 12))
+        .collect();
+    let clip = "<clipPath id=\"c\"><rect x=\"2\" width=\"90\" height=\"50\"/></clipPath>";
+    let together = drawing(&format!("{clip}<g clip-path=\"url(#c)\">{squares}</g>"));
+    let apart = drawing(&format!("{clip}{}", squares.replace("<rect", "<rect clip-path=\"url(#c)\"")));
+    assert!((together.region.area() - apart.region.area()).abs() < 1e-9);
+    assert!((together.region.area() - 836.0).abs() < 1e-9);
+}
+
+#[test]
+fn arcs_flatter_than_rounding_are_lines() {
+    let flat = drawing("<path d='M10 10A1e12 1e12 0 0 1 20 20L30 10Z'/>");
+    let plain = drawing("<path d='M10 10L20 20L30 10Z'/>");
+    assert_eq!(points(&flat), points(&plain));
+    assert!(flat.region.segments().all(|s| s.link == Link::Line));
+    // The long way round is a circle beyond all coordinates, and a radius of 1e7 still bulges.
+    assert!(matches!(
+        read(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9'><path d='M10 10A1e12 1e12 0 1 1 20 20L30 10Z'/></svg>"
+        ),
+        Err(ReadError::Huge { .. })
+    ));
+    let round = drawing("<path d='M10 10A1e7 1e7 0 0 1 20 20L30 10Z'/>");
+    assert!(round.region.segments().any(|s| s.link != Link::Line));
+}
+
+#[cfg(feature = "text")]
+#[test]
+fn generic_and_common_families_are_set_in_an_installed_font_that_is_named() {
+    if font_file().is_none() {
+        return;
+    }
+    for family in ["sans-serif", "serif", "monospace", "Arial", "Times New Roman", "Courier New"] {
+        let set = read(&TEXT.replace("No Such Family", family)).unwrap();
+        assert!(set.region.topology().components >= 2, "{family}");
+        for kind in kinds(&set) {
+            assert!(matches!(kind, WarningKind::FontReplaced { asked, .. } if asked == family), "{kind:?}");
+        }
+    }
+}

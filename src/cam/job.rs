@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::Side;
-use crate::units::{ResolveLengthError, Speed};
+use crate::units::{Brief, ResolveLengthError, Speed};
 
 /// Default tool diameter in millimetres: 1/8 inch, the shank of the collets that small routers come with.
 pub const DEFAULT_TOOL_DIAMETER: f64 = 3.175;
@@ -151,7 +151,7 @@ impl Default for Job {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum JobProblem {
     /// Zero, negative, or not a number.
-    #[error("{field} is {value}: it must be a number above zero")]
+    #[error("{field} is {}: it must be a number above zero", Brief(*.value))]
     NotPositive {
         /// Which value.
         field: &'static str,
@@ -159,7 +159,7 @@ pub enum JobProblem {
         value: f64,
     },
     /// Negative, or not a number.
-    #[error("{field} is {value}: it must be zero or more")]
+    #[error("{field} is {}: it must be zero or more", Brief(*.value))]
     Negative {
         /// Which value.
         field: &'static str,
@@ -167,7 +167,7 @@ pub enum JobProblem {
         value: f64,
     },
     /// Not a number, or infinite.
-    #[error("{field} is {value}: it must be a finite number")]
+    #[error("{field} is {}: it must be a finite number", Brief(*.value))]
     NotFinite {
         /// Which value.
         field: &'static str,
@@ -175,7 +175,7 @@ pub enum JobProblem {
         value: f64,
     },
     /// Beyond any machine.
-    #[error("{field} is {value}: at most {limit} makes sense; is the unit right?")]
+    #[error("{field} is {}: at most {limit} makes sense; is the unit right?", Brief(*.value))]
     TooLarge {
         /// Which value.
         field: &'static str,
@@ -185,7 +185,7 @@ pub enum JobProblem {
         limit: f64,
     },
     /// Below what a machine resolves.
-    #[error("{field} is {value} mm: at least {limit} mm makes sense; is the unit right?")]
+    #[error("{field} is {} mm: at least {limit} mm makes sense; is the unit right?", Brief(*.value))]
     TooSmall {
         /// Which value.
         field: &'static str,
@@ -196,8 +196,8 @@ pub enum JobProblem {
     },
     /// The tool would travel through the stock.
     #[error(
-        "safe-height is {safe_height} mm, not above stock-top, {stock_top} mm: \
-         try safe-height = {}", stock_top + DEFAULT_SAFE_CLEARANCE
+        "safe-height is {} mm, not above stock-top, {} mm: try safe-height = {}",
+        Brief(*.safe_height), Brief(*.stock_top), Brief(stock_top + DEFAULT_SAFE_CLEARANCE)
     )]
     SafeHeightTooLow {
         /// z of travel.
@@ -206,7 +206,10 @@ pub enum JobProblem {
         stock_top: f64,
     },
     /// depth / depth-per-pass is absurd.
-    #[error("depth {depth} mm at depth-per-pass {depth_per_pass} mm takes more than {LARGEST_PASS_COUNT} passes")]
+    #[error(
+        "depth {} mm at depth-per-pass {} mm takes more than {LARGEST_PASS_COUNT} passes",
+        Brief(*.depth), Brief(*.depth_per_pass)
+    )]
     TooManyPasses {
         /// Total depth.
         depth: f64,

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use serde::Deserialize;
 
 use super::{DEFAULT_SAFE_CLEARANCE, Direction, Entry, InvalidJob, Job, JobProblem, Origin, PathRadius, Side};
+use crate::rolling::Topology;
 use crate::units::{DrawingScale, Length, ParseLengthError, ResolveLengthError, Speed};
 
 /// The values that somebody typed; what was not typed is `None`.
@@ -57,6 +58,26 @@ pub struct JobFile {
     /// `ramp` or `plunge`.
     #[serde(deserialize_with = "typed")]
     pub entry: Option<Entry>,
+    /// `merge` or `keep`: what happens where parts come nearer to each other than the tool.
+    #[serde(deserialize_with = "typed")]
+    pub topology: Option<Topology>,
+    /// `grbl` or `linuxcnc`.
+    #[serde(deserialize_with = "typed")]
+    pub dialect: Option<DialectName>,
+    /// Lines instead of arcs.
+    pub no_arcs: Option<bool>,
+    /// Inches instead of millimetres.
+    pub inches: Option<bool>,
+}
+
+/// Whose dialect of G-code a job is written in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DialectName {
+    /// GRBL 1.1 and those that follow it.
+    #[default]
+    Grbl,
+    /// LinuxCNC 2.8 and later.
+    LinuxCnc,
 }
 
 /// A path radius as it was typed.
@@ -109,6 +130,10 @@ impl JobFile {
             path_radius: self.path_radius.or(below.path_radius),
             acceleration: self.acceleration.or(below.acceleration),
             entry: self.entry.or(below.entry),
+            topology: self.topology.or(below.topology),
+            dialect: self.dialect.or(below.dialect),
+            no_arcs: self.no_arcs.or(below.no_arcs),
+            inches: self.inches.or(below.inches),
         }
     }
 
@@ -194,6 +219,22 @@ impl FromStr for Entry {
 
     fn from_str(text: &str) -> Result<Entry, UnknownChoice> {
         choose(text, &[("ramp", Entry::Ramp), ("plunge", Entry::Plunge)])
+    }
+}
+
+impl FromStr for Topology {
+    type Err = UnknownChoice;
+
+    fn from_str(text: &str) -> Result<Topology, UnknownChoice> {
+        choose(text, &[("merge", Topology::Merge), ("keep", Topology::Keep)])
+    }
+}
+
+impl FromStr for DialectName {
+    type Err = UnknownChoice;
+
+    fn from_str(text: &str) -> Result<DialectName, UnknownChoice> {
+        choose(text, &[("grbl", DialectName::Grbl), ("linuxcnc", DialectName::LinuxCnc)])
     }
 }
 

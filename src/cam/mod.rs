@@ -44,7 +44,7 @@ pub use job::{
     DEFAULT_SPINDLE_SPEED, DEFAULT_STOCK_TOP, DEFAULT_TOOL_DIAMETER, Direction, Entry, InvalidJob, Job, JobProblem,
     Origin, PathRadius,
 };
-pub use job_file::{JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
+pub use job_file::{DialectName, JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
 pub use path_radius::{PathPlace, TightestTurns, tightest_turns};

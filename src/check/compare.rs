@@ -4,21 +4,13 @@ use std::collections::HashSet;
 
 use i_overlay::core::overlay_rule::OverlayRule;
 
+use super::farthest::{RESOLUTION, farthest};
 use super::inside::Inside;
 use super::moved::{overlay, pieces};
 use super::report::{Area, Containment, Distance, Kept, Report, SmallestRadius, Topology};
-use crate::plane::{BoundaryIndex, Joint, Link, Point, Region, Segment, Turn, turn_angle};
+use crate::plane::{BoundaryIndex, Joint, Link, Point, Region, Turn, turn_angle};
 use crate::reference::{Operation, Reference};
 use crate::units::Radius;
-
-/// Distance of samples over the radius.
-const SAMPLE_STEP: f64 = 1.0 / 16.0;
-
-/// How many of the largest samples are refined to the local maximum beside them.
-const REFINED: usize = 32;
-
-/// Steps of a refinement: each shrinks its stretch by the golden ratio, 40 of them to 4e-9 of a sample step.
-const REFINEMENTS: usize = 40;
 
 /// An input vertex this near to the reference's boundary, over the radius, need not move.
 const STILL: f64 = 1e-7;
@@ -41,7 +33,6 @@ const CORNER: f64 = 0.2;
 pub fn compare(input: &Region, output: &Region, reference: &Reference, radius: Radius, operation: Operation) -> Report {
     let r = radius.get();
     let truth = &reference.region;
-    let step = SAMPLE_STEP * r;
     let (output_index, truth_index) = (BoundaryIndex::new(output), BoundaryIndex::new(truth));
     let (larger, smaller) = match operation {
         Operation::Close => (truth, input),
@@ -50,14 +41,17 @@ pub fn compare(input: &Region, output: &Region, reference: &Reference, radius: R
     let mut mask = Vec::new();
     for piece in pieces(input, truth, larger, smaller, r) {
         if piece.is_topological() {
-            mask.push((BoundaryIndex::new(&piece.outline), piece.outline));
+            mask.push(BoundaryIndex::new(&piece.outline));
         }
     }
-    let is_masked =
-        |p: Point| mask.iter().any(|(index, outline)| index.is_nearer(p, TOPOLOGY_REACH * r) || outline.contains(p));
-    let distance = |counts: &dyn Fn(Point) -> bool| {
-        let forth = farthest(output, step, |p| if counts(p) { truth_index.distance(p) } else { 0.0 });
-        let back = farthest(truth, step, |p| if counts(p) { output_index.distance(p) } else { 0.0 });
+    let resolution = RESOLUTION * r;
+    let hide = |p: Point, reach: f64| {
+        let near = TOPOLOGY_REACH * r + reach;
+        near > 0.0 && mask.iter().any(|index| index.is_nearer(p, near) || index.winding_number(p) > 0)
+    };
+    let distance = |hidden: &dyn Fn(Point, f64) -> bool| {
+        let forth = farthest(output, &truth_index, resolution, |_, d| d, hidden);
+        let back = farthest(truth, &output_index, resolution, |_, d| d, hidden);
         let (largest, place) = if forth.0 >= back.0 { forth } else { back };
         Distance {
             output_to_reference_units: forth.0,
@@ -66,8 +60,8 @@ pub fn compare(input: &Region, output: &Region, reference: &Reference, radius: R
             place: place.map(Into::into),
         }
     };
-    let hausdorff = distance(&|_| true);
-    let agreeing = if mask.is_empty() { hausdorff } else { distance(&|p| !is_masked(p)) };
+    let hausdorff = distance(&|_, _| false);
+    let agreeing = if mask.is_empty() { hausdorff } else { distance(&hide) };
     let (inner, outer) = match operation {
         Operation::Close => (input, output),
         Operation::Open => (output, input),
@@ -78,7 +72,7 @@ pub fn compare(input: &Region, output: &Region, reference: &Reference, radius: R
         reference_method: reference.method,
         reference_error_units: reference.error_bound,
         reference_radius_units: reference.radius,
-        sample_step_units: step,
+        resolution_units: resolution,
         hausdorff,
         hausdorff_where_topology_agrees: agreeing,
         topological_pieces: mask.len(),
@@ -88,39 +82,6 @@ pub fn compare(input: &Region, output: &Region, reference: &Reference, radius: R
         topology: Topology { input: input.topology(), output: output.topology(), reference: truth.topology() },
         smallest_radius: smallest_radius(output, r, operation),
     }
-}
-
-/// The largest value of `height`, a function that changes no faster than its place, on the boundary of `region`.
-fn farthest(region: &Region, step: f64, height: impl Fn(Point) -> f64) -> (f64, Option<Point>) {
-    let mut samples: Vec<(f64, Segment, f64, f64)> = Vec::new();
-    for s in region.segments() {
-        let pieces = (s.length() / step).ceil().max(2.0);
-        for k in 0..pieces as usize {
-            let t = k as f64 / pieces;
-            samples.push((height(s.point_at(t)), s, t, 1.0 / pieces));
-        }
-    }
-    samples.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let Some(&(value, s, t, _)) = samples.first() else { return (0.0, None) };
-    let mut best = (value, Some(s.point_at(t)));
-    for &(value, s, t, width) in samples.iter().take(REFINED) {
-        if !value.is_finite() || value == 0.0 {
-            break;
-        }
-        // Golden section on either side of the sample.
-        let (mut low, mut high) = ((t - width).max(0.0), (t + width).min(1.0));
-        let ratio = 0.5 * (5f64.sqrt() - 1.0);
-        for _ in 0..REFINEMENTS {
-            let (a, b) = (high - ratio * (high - low), low + ratio * (high - low));
-            if height(s.point_at(a)) < height(s.point_at(b)) { low = a } else { high = b }
-        }
-        let p = s.point_at(0.5 * (low + high));
-        let refined = height(p);
-        if refined > best.0 {
-            best = (refined, Some(p));
-        }
-    }
-    best
 }
 
 fn areas(input: &Region, output: &Region, truth: &Region, r: f64) -> Area {
@@ -138,10 +99,9 @@ fn areas(input: &Region, output: &Region, truth: &Region, r: f64) -> Area {
 fn containment(inner: &Region, outer: &Region, r: f64) -> Containment {
     let index = BoundaryIndex::new(outer);
     let inside = Inside::new(outer);
-    let (violation, place) = farthest(inner, SAMPLE_STEP * r, |p| {
-        let d = index.distance(p);
-        if d == 0.0 || inside.contains(p) { 0.0 } else { d }
-    });
+    let signed = |p: Point, d: f64| if d > 0.0 && inside.contains(p) { -d } else { d };
+    let (violation, place) = farthest(inner, &index, RESOLUTION * r, signed, &|_, _| false);
+    let violation = violation.max(0.0);
     Containment {
         violation_units: violation,
         violation_over_r: violation / r,

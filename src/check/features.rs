@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::Place;
 use super::moved::{Contact, Piece, pieces};
 use crate::plane::{InscribedCircle, Point, Region, inscribed_circle};
+use crate::reference::Operation;
 use crate::units::Radius;
 
 /// A filling shallower than this over the radius is a fillet, not a feature. Shallow is measured from the new boundary, which
@@ -89,12 +90,12 @@ impl LostFeature {
 
 /// What `result`, a closing or opening of `part` by a disk of `radius`, has lost; in the order of the pieces from below.
 ///
-/// A closing has the larger area, so which of the two it is need not be said. A fillet in a corner is no loss. A filled
+/// A fillet in a corner is no loss. A filled
 /// inlet is one if the filling is deeper than [`SHALLOWEST_FILLING`] and the inlet either [deeper than wide](SLOT_DEPTH) or
 /// [box-like](SLOT_FULLNESS). Accurate to about a thousandth of the radius, to which arcs are flattened.
-pub fn lost_features(part: &Region, result: &Region, radius: Radius) -> Vec<LostFeature> {
+pub fn lost_features(part: &Region, result: &Region, radius: Radius, operation: Operation) -> Vec<LostFeature> {
     let r = radius.get();
-    let is_closing = result.area() >= part.area();
+    let is_closing = operation == Operation::Close;
     let (larger, smaller) = if is_closing { (result, part) } else { (part, result) };
     let components = Components::new(part);
     let mut found = Vec::new();

@@ -4,6 +4,7 @@
 //! [`lost_features`] names what a closing fills or an opening removes beyond rounding corners.
 
 mod compare;
+mod farthest;
 mod features;
 mod inside;
 mod moved;

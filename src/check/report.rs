@@ -18,8 +18,8 @@ pub struct Report {
     pub reference_error_units: f64,
     /// The radius that the reference is certified for.
     pub reference_radius_units: f64,
-    /// Distance of the sampled points of each boundary; local maxima are refined from there.
-    pub sample_step_units: f64,
+    /// Where the boundaries do not run along each other, no point is farther than the one found by more than this.
+    pub resolution_units: f64,
     /// The Hausdorff distance between output and reference.
     pub hausdorff: Distance,
     /// The same without what lies within two radii of a change of topology: for results that keep the input's topology.
@@ -38,17 +38,26 @@ pub struct Report {
     pub smallest_radius: Option<SmallestRadius>,
 }
 
-/// A distance between two boundaries. One that exists between something and nothing is infinite.
+/// A distance between two boundaries. One between something and nothing is infinite, in JSON
+/// the text `infinite`.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Distance {
     /// The largest distance from a point of the output to the reference.
+    #[serde(serialize_with = "finite_or_word")]
     pub output_to_reference_units: f64,
     /// The largest distance from a point of the reference to the output.
+    #[serde(serialize_with = "finite_or_word")]
     pub reference_to_output_units: f64,
     /// The larger of the two.
+    #[serde(serialize_with = "finite_or_word")]
     pub largest_over_r: f64,
     /// Where the larger of the two is found.
     pub place: Option<Place>,
+}
+
+/// JSON has no number for what is infinite, and `null` would say that nothing was measured.
+fn finite_or_word<S: serde::Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
+    if value.is_infinite() { to.serialize_str("infinite") } else { to.serialize_f64(*value) }
 }
 
 /// Areas, with true arcs but for the symmetric difference, whose arcs are flattened to 1e-5 r.
@@ -70,8 +79,10 @@ pub struct Area {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Containment {
     /// The largest such distance.
+    #[serde(serialize_with = "finite_or_word")]
     pub violation_units: f64,
     /// The same in radii.
+    #[serde(serialize_with = "finite_or_word")]
     pub violation_over_r: f64,
     /// Where it is.
     pub place: Option<Place>,

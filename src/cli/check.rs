@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 
+use super::close::TopologyArg;
 use super::input::ReadArgs;
 use super::{ExitStatus, output};
 use crate::check::{Report, compare};
@@ -32,9 +33,10 @@ pub struct CheckArgs {
     /// What was done to the input
     #[arg(long, value_enum, default_value = "close")]
     pub op: OperationArg,
-    /// What the result was meant to do where components meet or holes fill
-    #[arg(long, value_enum, default_value = "merge")]
-    pub topology: TopologyArg,
+    /// What the result was meant to do where components meet or holes fill: with keep, what lies within two radii of a
+    /// change of topology does not count
+    #[arg(long, value_enum, default_value_t = TopologyArg::Merge)]
+    topology: TopologyArg,
     /// Largest accepted distance to the reference, and depth of a violated containment, in radii
     #[arg(long, value_name = "RADII", default_value_t = DEFAULT_TOLERANCE)]
     pub tolerance: f64,
@@ -61,15 +63,6 @@ impl From<OperationArg> for Operation {
             OperationArg::Open => Operation::Open,
         }
     }
-}
-
-/// `--topology`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TopologyArg {
-    /// The morphological result, which the reference is: everything counts
-    Merge,
-    /// The input's topology: what lies within two radii of a change of topology does not count
-    Keep,
 }
 
 /// `--format`.

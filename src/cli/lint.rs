@@ -17,9 +17,10 @@ pub(super) struct LintArgs {
     /// The program; - is standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Whose rules to apply; our own about safe motion always apply
-    #[arg(long, value_enum, default_value_t = ControllerArg::Both)]
-    controller: ControllerArg,
+    /// Whose rules to apply; our own about safe motion always apply [default: both, or what a program written by clopen
+    /// says in its header]
+    #[arg(long, value_enum)]
+    controller: Option<ControllerArg>,
     /// z of the top of the stock
     #[arg(long, value_name = "LENGTH", default_value_t = Length::Millimetres(0.0), allow_hyphen_values = true)]
     stock_top: Length,
@@ -47,9 +48,10 @@ pub(super) fn run(args: &LintArgs) -> Result<ExitStatus> {
     let text = input::read_text(&args.file)?;
     let stock_top = input::millimetres(args.stock_top, "--stock-top")?;
     let controller = match args.controller {
-        ControllerArg::Grbl => Controller::Grbl,
-        ControllerArg::Linuxcnc => Controller::LinuxCnc,
-        ControllerArg::Both => Controller::Both,
+        Some(ControllerArg::Grbl) => Controller::Grbl,
+        Some(ControllerArg::Linuxcnc) => Controller::LinuxCnc,
+        Some(ControllerArg::Both) => Controller::Both,
+        None => Controller::of_header(&text).unwrap_or_default(),
     };
     let findings = lint(&text, &LintOptions { controller, stock_top });
     match args.format {

@@ -11,15 +11,16 @@ use super::input::ReadArgs;
 use super::report::{MillReport, Verdict};
 use super::{ExitStatus, input, output};
 use crate::cam::{
-    self, Certificate, CertifyOptions, Direction, Entry, Job, JobFile, Machine, OffsetError, Origin, PlanError,
-    Program, Remainder, Side, Toolpath, TypedPathRadius,
+    self, Certificate, CertifyOptions, DialectName, Direction, Entry, Job, JobFile, Machine, OffsetError, Origin,
+    PlanError, Program, Remainder, Side, Toolpath, TypedPathRadius,
 };
 use crate::check::{LostFeature, lost_features};
-use crate::gcode::{self, Arcs, Controller, Dialect, Finding, LintOptions, Units, WriteOptions};
+use crate::gcode::{self, Arcs, Controller, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
 use crate::io::svg::Drawing;
 use crate::plane::Region;
 use crate::preview::{self, DEFAULT_SIZE, Scene};
-use crate::rolling;
+use crate::reference::Operation;
+use crate::rolling::{self, Topology};
 use crate::units::{Length, Radius, Speed};
 
 /// The arguments.
@@ -101,18 +102,18 @@ struct CutArgs {
     /// ramp or plunge [default: ramp]
     #[arg(long, value_name = "WAY")]
     entry: Option<Entry>,
-    /// What happens where parts come nearer to each other than the tool
-    #[arg(long, value_enum, default_value_t = TopologyArg::Merge)]
-    topology: TopologyArg,
+    /// What happens where parts come nearer to each other than the tool [default: merge]
+    #[arg(long, value_enum)]
+    topology: Option<TopologyArg>,
 }
 
 /// How the program is written.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Program")]
 struct ProgramArgs {
-    /// The controller's dialect
-    #[arg(long, value_enum, default_value_t = DialectArg::Grbl)]
-    dialect: DialectArg,
+    /// The controller's dialect [default: grbl]
+    #[arg(long, value_enum)]
+    dialect: Option<DialectArg>,
     /// Lines instead of arcs, for machines without them
     #[arg(long)]
     no_arcs: bool,
@@ -130,42 +131,49 @@ enum DialectArg {
     Linuxcnc,
 }
 
-impl DialectArg {
-    fn dialect(self) -> Dialect {
-        match self {
-            DialectArg::Grbl => gcode::GRBL,
-            DialectArg::Linuxcnc => gcode::LINUXCNC,
-        }
-    }
-
-    fn controller(self) -> Controller {
-        match self {
-            DialectArg::Grbl => Controller::Grbl,
-            DialectArg::Linuxcnc => Controller::LinuxCnc,
+impl From<DialectArg> for DialectName {
+    fn from(arg: DialectArg) -> DialectName {
+        match arg {
+            DialectArg::Grbl => DialectName::Grbl,
+            DialectArg::Linuxcnc => DialectName::LinuxCnc,
         }
     }
 }
 
-impl CutArgs {
+impl MillArgs {
     fn typed(&self) -> JobFile {
+        let (cut, program) = (&self.cut, &self.program);
         JobFile {
-            tool_diameter: self.tool_diameter,
-            depth: self.depth,
-            depth_per_pass: self.depth_per_pass,
-            feed: self.feed,
-            plunge_feed: self.plunge_feed,
-            spindle_speed: self.spindle_speed,
-            dwell: self.dwell,
-            safe_height: self.safe_height,
-            stock_top: self.stock_top,
-            origin: self.origin,
-            direction: self.direction,
-            side: self.side,
-            path_radius: self.path_radius,
-            acceleration: self.acceleration,
-            entry: self.entry,
+            tool_diameter: cut.tool_diameter,
+            depth: cut.depth,
+            depth_per_pass: cut.depth_per_pass,
+            feed: cut.feed,
+            plunge_feed: cut.plunge_feed,
+            spindle_speed: cut.spindle_speed,
+            dwell: cut.dwell,
+            safe_height: cut.safe_height,
+            stock_top: cut.stock_top,
+            origin: cut.origin,
+            direction: cut.direction,
+            side: cut.side,
+            path_radius: cut.path_radius,
+            acceleration: cut.acceleration,
+            entry: cut.entry,
+            topology: cut.topology.map(Into::into),
+            dialect: program.dialect.map(Into::into),
+            no_arcs: program.no_arcs.then_some(true),
+            inches: program.inches.then_some(true),
         }
     }
+}
+
+/// What the flags and the job file say together.
+struct Settings {
+    job: Job,
+    topology: Topology,
+    dialect: Dialect,
+    controller: Controller,
+    options: WriteOptions,
 }
 
 /// The work as far as the geometry goes, in millimetres and in the machine's coordinates.
@@ -211,13 +219,14 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
              the part is (--width 100mm)"
         );
     };
-    let job = read_job(args, &drawing)?;
-    let plan = make_plan(args, &drawing.region.scaled(mm_per_unit), &job).with_context(|| name.to_string())?;
-    let checked = check(args, &job, &plan)?;
+    let settings = read_settings(args, &drawing)?;
+    let job = &settings.job;
+    let plan = make_plan(&settings, &drawing.region.scaled(mm_per_unit)).with_context(|| name.to_string())?;
+    let checked = check(args, &settings, &plan)?;
 
     let mut contents = vec![(target.clone(), checked.text.clone().into_bytes())];
     if let Some(picture) = picture {
-        contents.push((picture, draw(&job, &plan, &checked)?));
+        contents.push((picture, draw(job, &plan, &checked)?));
     }
     output::write_together(
         &contents.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect::<Vec<_>>(),
@@ -225,8 +234,9 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let written: Vec<PathBuf> = contents.into_iter().map(|(path, _)| path).collect();
     let report = MillReport {
         input: &args.input,
-        job: &job,
-        dialect: args.program.dialect.dialect().name,
+        job,
+        dialect: settings.dialect.name,
+        options: settings.options,
         part: &plan.part,
         certificate: &checked.certificate,
         lost: &plan.lost,
@@ -251,17 +261,31 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     })
 }
 
-fn read_job(args: &MillArgs, drawing: &Drawing) -> Result<Job> {
-    let mut typed = args.cut.typed();
+fn read_settings(args: &MillArgs, drawing: &Drawing) -> Result<Settings> {
+    let mut typed = args.typed();
     if let Some(path) = &args.job {
         let file: JobFile = input::read_text(path)?.parse().with_context(|| path.display().to_string())?;
         typed = typed.over(file);
     }
-    Ok(typed.resolve(&drawing.scale())?)
+    let (dialect, controller) = match typed.dialect.unwrap_or_default() {
+        DialectName::Grbl => (gcode::GRBL, Controller::Grbl),
+        DialectName::LinuxCnc => (gcode::LINUXCNC, Controller::LinuxCnc),
+    };
+    Ok(Settings {
+        job: typed.resolve(&drawing.scale())?,
+        topology: typed.topology.unwrap_or(Topology::Merge),
+        dialect,
+        controller,
+        options: WriteOptions {
+            units: if typed.inches == Some(true) { Units::Inches } else { Units::Millimetres },
+            arcs: if typed.no_arcs == Some(true) { Arcs::Lines } else { Arcs::Arcs },
+        },
+    })
 }
 
 /// Closes what stays by the tool, and plans the way around it.
-fn make_plan(args: &MillArgs, part: &Region, job: &Job) -> Result<Plan> {
+fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
+    let job = &settings.job;
     let size = part.bounds().diagonal();
     if job.tool_diameter > size {
         bail!(
@@ -274,13 +298,13 @@ fn make_plan(args: &MillArgs, part: &Region, job: &Job) -> Result<Plan> {
     let radius = job.closing_radius();
     // On the outline with sharp turns allowed nothing is closed.
     let (closed, contradictions) = if radius > 0.0 {
-        let outcome = rolling::close(&stays, Radius::new(radius)?, args.cut.topology.into());
+        let outcome = rolling::close(&stays, Radius::new(radius)?, settings.topology);
         (outcome.region, outcome.contradictions)
     } else {
         (stays, 0)
     };
-    let toolpath = cam::plan(job, part, &closed).map_err(|error| match (error, args.cut.topology) {
-        (PlanError::Offset(OffsetError::NoRoom { at }), TopologyArg::Keep) => anyhow!(
+    let toolpath = cam::plan(job, part, &closed).map_err(|error| match (error, settings.topology) {
+        (PlanError::Offset(OffsetError::NoRoom { at }), Topology::Keep) => anyhow!(
             "the tool does not fit between parts of the outline at ({:.4}, {:.4}) of the drawing, y up, in millimetres: \
              try --topology merge, which fills such places, or a smaller tool",
             at.x,
@@ -295,48 +319,59 @@ fn make_plan(args: &MillArgs, part: &Region, job: &Job) -> Result<Plan> {
         Side::Inside => closed.reversed(),
     }
     .translated(toolpath.translation);
-    let lost = if radius > 0.0 { lost_features(&part, &kept, Radius::new(radius)?) } else { vec![] };
+    // Seen from the drawing: inside, it is the tool's pocket that is opened.
+    let operation = match job.side {
+        Side::Outside | Side::On => Operation::Close,
+        Side::Inside => Operation::Open,
+    };
+    let lost = if radius > 0.0 { lost_features(&part, &kept, Radius::new(radius)?, operation) } else { vec![] };
     Ok(Plan { part, kept, toolpath, lost, contradictions })
 }
 
 /// Writes the program, and from here on believes only what it says.
-fn check(args: &MillArgs, job: &Job, plan: &Plan) -> Result<Checked> {
-    let dialect = args.program.dialect.dialect();
-    let options = WriteOptions {
-        units: if args.program.inches { Units::Inches } else { Units::Millimetres },
-        arcs: if args.program.no_arcs { Arcs::Lines } else { Arcs::Arcs },
-    };
-    let text = gcode::write(&plan.toolpath, &header(args, job, plan), &dialect, options)?;
-    let findings =
-        gcode::lint(&text, &LintOptions { controller: args.program.dialect.controller(), stock_top: job.stock_top });
+fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
+    let Settings { job, dialect, controller, options, .. } = settings;
+    let header = header(args, settings, plan);
+    let text = gcode::write(&plan.toolpath, &header, dialect, *options)?;
+    let findings = gcode::lint(&text, &LintOptions { controller: *controller, stock_top: job.stock_top });
     let program = gcode::read(&text).context("the program cannot be read back; please report this")?;
     let machine = Machine { acceleration: [job.acceleration; 3], ..Machine::default() };
-    let certificate = cam::certify(
+    let remainder = match job.side {
+        Side::Outside | Side::On => Remainder::Inside,
+        Side::Inside => Remainder::Outside,
+    };
+    let mut certificate = cam::certify(
         &program,
         &plan.part,
         &plan.kept,
         &CertifyOptions {
-            remainder: match job.side {
-                Side::Outside | Side::On => Remainder::Inside,
-                Side::Inside => Remainder::Outside,
-            },
+            remainder,
             stock_top: job.stock_top,
             floor: Some(job.stock_top - job.depth),
             machine,
             ..CertifyOptions::new(job.offset_distance())
         },
     );
+    if options.arcs == Arcs::Lines {
+        // Between lines every joint is a corner: what counts is the path that they stand for.
+        let round = WriteOptions { arcs: Arcs::Arcs, ..*options };
+        let round = gcode::read(&gcode::write(&plan.toolpath, &header, dialect, round)?);
+        let round = round.context("the path cannot be read back; please report this")?;
+        certificate.path_radius = cam::tightest_turns(&round, &plan.kept, remainder, job.stock_top);
+    }
     Ok(Checked { text, program, findings, certificate })
 }
 
 /// The settings that stand at the top of the program.
-fn header(args: &MillArgs, job: &Job, plan: &Plan) -> Vec<String> {
+fn header(args: &MillArgs, settings: &Settings, plan: &Plan) -> Vec<String> {
+    let job = &settings.job;
     let bounds = plan.part.bounds();
     let mut lines = vec![
         format!("clopen {}", env!("CARGO_PKG_VERSION")),
         format!("drawing {}", args.input.file_name().map_or("-".into(), |n| n.to_string_lossy().into_owned())),
         format!("part {:.3} x {:.3} mm", bounds.width(), bounds.height()),
     ];
+    lines.push(format!("{DIALECT_COMMENT}{}", settings.dialect.name));
     lines.extend(job.summary());
     lines.push(format!("closing radius {:.4} mm", job.closing_radius()));
     lines

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use serde_json::json;
 
-use crate::cam::{Certificate, Job};
+use crate::cam::{Certificate, Job, Side};
 use crate::check::{LostFeature, Place};
-use crate::gcode::{Finding, Severity};
+use crate::gcode::{Arcs, Finding, Severity, Units, WriteOptions};
 use crate::plane::Region;
+use crate::units::MM_PER_INCH;
 
 /// The deepest cut into the part that a program may make, in millimetres: what rounding and arc fitting can add up to.
 pub(super) const GOUGE_LIMIT: f64 = 0.002;
@@ -22,7 +23,8 @@ const PLACES_SHOWN: usize = 6;
 pub(super) enum Verdict {
     /// Nothing was found.
     Good,
-    /// A feature is lost, the part is cut into, the controller would refuse it, or the geometry is not proved.
+    /// A feature is lost, the part is cut into or hangs on the stock, the controller would refuse it, or the geometry is
+    /// not proved.
     Failed,
 }
 
@@ -31,6 +33,7 @@ pub(super) struct MillReport<'a> {
     pub(super) input: &'a Path,
     pub(super) job: &'a Job,
     pub(super) dialect: &'a str,
+    pub(super) options: WriteOptions,
     pub(super) part: &'a Region,
     pub(super) certificate: &'a Certificate,
     pub(super) lost: &'a [LostFeature],
@@ -49,9 +52,22 @@ impl MillReport<'_> {
         self.findings.iter().any(|f| f.severity == Severity::Error)
     }
 
+    /// Whether the cut does not go all around. On the outline the tool has no side that must remain, and no width.
+    fn hangs(&self) -> bool {
+        self.job.side != Side::On && !self.certificate.uncut.is_cut_free
+    }
+
+    /// A length with so many decimals of a millimetre, and in inches where the program is.
+    fn length(&self, mm: f64, decimals: usize) -> String {
+        match self.options.units {
+            Units::Millimetres => format!("{mm:.decimals$} mm"),
+            Units::Inches => format!("{mm:.decimals$} mm ({:.*} in)", decimals + 2, mm / MM_PER_INCH),
+        }
+    }
+
     pub(super) fn verdict(&self) -> Verdict {
         let losses = !self.lost.is_empty() && !self.accept_losses;
-        if losses || self.gouges() || self.refused() || self.contradictions > 0 {
+        if losses || self.gouges() || self.hangs() || self.refused() || self.contradictions > 0 {
             Verdict::Failed
         } else {
             Verdict::Good
@@ -68,6 +84,7 @@ impl MillReport<'_> {
             "tool_diameter_mm": self.job.tool_diameter,
             "closing_radius_mm": self.job.closing_radius(),
             "dialect": self.dialect,
+            "path_radius_is_before_lines": self.options.arcs == Arcs::Lines,
             "certificate": self.certificate,
             "gouge_limit_mm": GOUGE_LIMIT,
             "lost_features": self.lost,
@@ -92,9 +109,14 @@ impl MillReport<'_> {
         line(
             "part",
             format!(
-                "{:.2} x {:.2} mm, {}, {} ({})",
+                "{:.2} x {:.2} mm{}, {}, {} ({})",
                 bounds.width(),
                 bounds.height(),
+                match self.options.units {
+                    Units::Millimetres => String::new(),
+                    Units::Inches =>
+                        format!(" ({:.4} x {:.4} in)", bounds.width() / MM_PER_INCH, bounds.height() / MM_PER_INCH),
+                },
                 count(topology.components, "part"),
                 count(topology.holes, "hole"),
                 self.input.display()
@@ -103,54 +125,32 @@ impl MillReport<'_> {
         line(
             "tool",
             format!(
-                "{} mm, path radius {:.3} mm, closing radius {:.3} mm, {} pass{}, {}",
-                self.job.tool_diameter,
-                self.job.path_radius_mm(),
-                self.job.closing_radius(),
+                "{}, path radius {}, closing radius {}, {} pass{}, {}",
+                self.length(self.job.tool_diameter, 3),
+                self.length(self.job.path_radius_mm(), 3),
+                self.length(self.job.closing_radius(), 3),
                 s.passes,
                 if s.passes == 1 { "" } else { "es" },
                 self.dialect
             ),
         );
-        match c.gouge {
-            Some(g) if g.depth_mm > 0.0 => {
-                let verdict = if self.gouges() { "TOO DEEP, limit" } else { "limit" };
-                line(
-                    "gouge",
-                    format!(
-                        "{:.5} mm at ({:.3}, {:.3}), line {} ({verdict} {GOUGE_LIMIT} mm)",
-                        g.depth_mm, g.x_mm, g.y_mm, g.line
-                    ),
-                );
-            }
-            _ => line("gouge", "none".to_owned()),
-        }
-        line("uncut", format!("{:.3} mm2 in {}", c.uncut.area_mm2, count(c.uncut.places.len(), "place")));
-        for place in c.uncut.places.iter().take(PLACES_SHOWN) {
-            line(
-                "",
-                format!(
-                    "{:.3} mm2 at ({:.3}, {:.3}), up to {:.3} mm from the part",
-                    place.area_mm2, place.x_mm, place.y_mm, place.depth_mm
-                ),
-            );
-        }
-        more(&mut line, c.uncut.places.len());
-        let radius = |r: Option<f64>| r.map_or("straight".to_owned(), |mm| format!("{mm:.3} mm"));
+        self.cut_lines(&mut line);
+        let radius = |r: Option<f64>| r.map_or("straight".to_owned(), |mm| self.length(mm, 3));
         line(
             "path",
             format!(
-                "smallest radius {}, in inside corners {}",
+                "smallest radius {}, in inside corners {}{}",
                 radius(c.path_radius.smallest_mm),
-                radius(c.path_radius.smallest_concave_mm)
+                radius(c.path_radius.smallest_concave_mm),
+                if self.options.arcs == Arcs::Lines { " (before it was broken into lines)" } else { "" }
             ),
         );
         line(
             "",
             format!(
-                "{:.0} mm cut, {:.0} mm rapid, {}, {}",
-                s.cut_length_mm,
-                s.rapid_length_mm,
+                "{} cut, {} rapid, {}, {}",
+                self.length(s.cut_length_mm, 0),
+                self.length(s.rapid_length_mm, 0),
                 count(s.lines, "line"),
                 count(s.arcs, "arc")
             ),
@@ -172,6 +172,53 @@ impl MillReport<'_> {
         let names: Vec<String> = self.written.iter().map(|p| p.display().to_string()).collect();
         line("wrote", names.join(", "));
         text
+    }
+
+    /// What the cut does to the part and what it leaves.
+    fn cut_lines(&self, line: &mut impl FnMut(&str, String)) {
+        let c = self.certificate;
+        let is_on = self.job.side == Side::On;
+        // On the outline the tool's width is taken from the part by half, as asked: what counts is its centre.
+        let label = if is_on { "centre" } else { "gouge" };
+        match c.gouge {
+            Some(g) if g.depth_mm > 0.0 => {
+                let verdict = if self.gouges() { "TOO DEEP, limit" } else { "limit" };
+                line(
+                    label,
+                    format!(
+                        "{}{} at ({:.3}, {:.3}), line {} ({verdict} {GOUGE_LIMIT} mm)",
+                        if is_on { "inside of the outline by up to " } else { "" },
+                        self.length(g.depth_mm, 5),
+                        g.x_mm,
+                        g.y_mm,
+                        g.line
+                    ),
+                );
+            }
+            _ if is_on => line(label, "nowhere inside of the outline".to_owned()),
+            _ => line(label, "none".to_owned()),
+        }
+        if is_on {
+            let half = self.length(0.5 * self.job.tool_diameter, 3);
+            return line("", format!("the tool takes {half} on either side of it"));
+        }
+        line("uncut", format!("{:.3} mm2 in {}", c.uncut.area_mm2, count(c.uncut.places.len(), "place")));
+        for place in c.uncut.places.iter().take(PLACES_SHOWN) {
+            line(
+                "",
+                format!(
+                    "{:.3} mm2 at ({:.3}, {:.3}), up to {} from the part",
+                    place.area_mm2,
+                    place.x_mm,
+                    place.y_mm,
+                    self.length(place.depth_mm, 3)
+                ),
+            );
+        }
+        more(line, c.uncut.places.len());
+        if self.hangs() {
+            line("NOT CUT FREE", "the cut does not go all around: the part hangs on the stock".to_owned());
+        }
     }
 
     fn lost_lines(&self, line: &mut impl FnMut(&str, String)) {
@@ -238,5 +285,46 @@ fn describe(feature: &LostFeature, job: &Job) -> String {
         LostFeature::NeckCut { place, width, .. } => {
             format!("neck {width:.2} mm wide {}: not cut; {}", at(place), why(*width))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cam::{CertifyOptions, certify};
+    use crate::gcode::read;
+    use crate::plane::{Point, Ring};
+
+    /// Around a square of 10 mm with a tool of 4 mm, and the same without the last side.
+    const AROUND: &str = "G21 G90 G17 G94\nG0 Z5\nM3 S1000\nG4 P2\nG0 X-2 Y0\nG1 Z-1 F100\nG1 Y10 F600\nG2 X0 Y12 I2 J0\n\
+        G1 X10\nG2 X12 Y10 I0 J-2\nG1 Y0\nG2 X10 Y-2 I-2 J0\n";
+
+    #[test]
+    fn a_part_that_hangs_on_the_stock_fails() {
+        let part = Region::new(vec![Ring::polygon(
+            [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]].map(|p| Point::new(p[0], p[1])),
+        )]);
+        let verdict = |end: &str, side: Side| {
+            let program = read(&format!("{AROUND}{end}G0 Z5\nM5\nM2\n")).unwrap();
+            let certificate = certify(&program, &part, &part, &CertifyOptions::new(2.0));
+            let job = Job { side, ..Job::default() };
+            let report = MillReport {
+                input: Path::new("square.svg"),
+                job: &job,
+                dialect: "grbl",
+                options: WriteOptions { units: Units::Millimetres, arcs: Arcs::Arcs },
+                part: &part,
+                certificate: &certificate,
+                lost: &[],
+                findings: &[],
+                contradictions: 0,
+                accept_losses: false,
+                written: &[],
+            };
+            (report.verdict(), report.text().contains("NOT CUT FREE"))
+        };
+        assert_eq!(verdict("G1 X0\nG2 X-2 Y0 I0 J2\n", Side::Outside), (Verdict::Good, false));
+        assert_eq!(verdict("", Side::Outside), (Verdict::Failed, true));
+        assert_eq!(verdict("", Side::On), (Verdict::Good, false));
     }
 }

@@ -52,6 +52,12 @@ pub struct Block {
 }
 
 impl Block {
+    /// Whether the line holds anything but comments and `%`.
+    pub fn has_code(&self) -> bool {
+        let is_text = |f: &Fault| matches!(f, Fault::BadNumber(_) | Fault::Unknown(_));
+        !self.words.is_empty() || self.has_program_number || self.faults.iter().any(is_text)
+    }
+
     /// Takes `line`, a line without its end, apart.
     pub fn parse(line: &str) -> Block {
         let mut block = Block::default();

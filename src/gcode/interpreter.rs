@@ -4,15 +4,18 @@
 //! plane, units per minute), and that it had to be assumed is a finding. Reading never stops: a line that cannot be
 //! understood is a finding too, and whether the program's meaning is lost is said by its rule.
 
+mod words;
+
 use std::collections::BTreeSet;
 
 use super::Finding;
 use super::arc_words::{ArcForm, solve_arc};
-use super::block::{Block, Fault};
+use super::block::Block;
 use super::codes;
 use super::rules::Rule;
 use crate::cam::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit};
 use crate::plane::{Point, Turn};
+use crate::units::Brief;
 
 /// A program and what was found while reading it.
 #[derive(Clone, Debug, Default)]
@@ -26,12 +29,6 @@ const ASSUMED_HOME: f64 = 25.0;
 
 /// Chord error of arcs outside of the XY plane, which are read as lines, in millimetres; far below what machines show.
 const OTHER_PLANE_TOLERANCE: f64 = 1e-4;
-
-/// Most characters of a line for GRBL, without comments and blanks: its buffer of 80 holds an end mark.
-const GRBL_LINE: usize = 79;
-
-/// Most characters of a line for LinuxCNC, comments and blanks included; measured.
-const LINUXCNC_LINE: usize = 252;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum MotionMode {
@@ -79,6 +76,8 @@ pub(super) fn interpret(text: &str) -> Interpretation {
         machine.line = index + 1;
         if machine.out.program.end_line.is_none() {
             machine.run(line);
+        } else if Block::parse(line).has_code() {
+            machine.find_once(Rule::AfterEnd, "");
         }
     }
     machine.out.program.unit = machine.out.program.unit.or(machine.unit);
@@ -104,84 +103,6 @@ impl Interpreter {
         self.out.program.comments.extend(comments.map(|c| Comment { line: self.line, text: c.clone() }));
         self.check_words(&block);
         self.execute(&block);
-    }
-
-    fn check_text(&mut self, line: &str, block: &Block) {
-        if block.code_length > GRBL_LINE {
-            self.find(Rule::LineTooLong, format!("{} characters", block.code_length));
-        }
-        if line.len() > LINUXCNC_LINE {
-            self.find(Rule::LineTooLongLinuxcnc, format!("{} characters", line.len()));
-        }
-        if block.has_delimiter {
-            self.find_once(Rule::PercentSign, "");
-        }
-        if block.has_program_number {
-            self.find_once(Rule::ProgramNumber, "");
-        }
-        if block.is_deletable {
-            self.find_once(Rule::BlockDelete, "");
-        }
-        let is_expression = |text: &str| text.contains(['#', '[', ']', '=']);
-        let code = line.split(['(', ';']).next().unwrap_or("");
-        for fault in &block.faults {
-            match fault {
-                Fault::BadNumber(_) | Fault::Unknown(_) if is_expression(code) => {
-                    self.find(Rule::Expression, code.trim());
-                    break;
-                }
-                Fault::BadNumber(text) => self.find(Rule::BadNumber, text),
-                Fault::Unknown(text) => self.find(Rule::UnknownText, text),
-                Fault::UnclosedComment => self.find(Rule::UnclosedComment, ""),
-                Fault::NestedComment => self.find(Rule::NestedComment, ""),
-            }
-        }
-    }
-
-    fn check_words(&mut self, block: &Block) {
-        let mut seen = 0u32;
-        let mut groups = BTreeSet::new();
-        for word in &block.words {
-            let tenths = codes::tenths(word.value);
-            match word.letter {
-                'G' | 'M' => {
-                    let is_g = word.letter == 'G';
-                    let text = format!("{}{}", word.letter, word.value);
-                    match tenths.map(|t| codes::support(is_g, t)) {
-                        None | Some(codes::Support::Nowhere) => self.find(Rule::UnknownCode, &text),
-                        Some(codes::Support::LinuxcncOnly) => {
-                            let rule = if (is_g, tenths) == (false, Some(60)) {
-                                Rule::ToolChange
-                            } else {
-                                Rule::GrblUnsupported
-                            };
-                            self.find(rule, &text);
-                        }
-                        Some(codes::Support::Both) => {}
-                    }
-                    if let Some(group) = tenths.and_then(|t| codes::group(is_g, t))
-                        && !groups.insert(group)
-                    {
-                        self.find(Rule::ConflictingCodes, &text);
-                    }
-                }
-                letter => {
-                    let bit = 1u32 << (u32::from(letter).wrapping_sub(u32::from('A')) % 32);
-                    if seen & bit != 0 {
-                        self.find(Rule::DuplicateWord, letter);
-                    }
-                    seen |= bit;
-                    match letter {
-                        'E' => self.find(Rule::Exponent, format!("E{}", word.value)),
-                        'A' | 'B' | 'C' | 'D' | 'H' | 'Q' | 'U' | 'V' | 'W' => self.find(Rule::GrblUnsupported, letter),
-                        'F' | 'S' | 'T' | 'P' if word.value < 0.0 => {
-                            self.find(Rule::NegativeValue, format!("{letter}{}", word.value));
-                        }
-                        _ => {}
-                    }
-                }
-            }
-        }
     }
 
     /// In the order in which controllers act: settings first, then dwell, then motion, then the end.
@@ -216,18 +137,18 @@ impl Interpreter {
                 ('G', 100 | 430..=432 | 520 | 920..=923 | 550..=593) => {
                     takes_axes |= matches!(tenths, 100 | 431 | 520 | 920);
                     takes_offsets = true;
-                    self.find_once(Rule::ShiftedOrigin, &format!("G{}", word.value));
+                    self.find_once(Rule::ShiftedOrigin, &format!("G{}", Brief(word.value)));
                 }
                 ('G', t) if codes::is_not_followed(t) => {
                     (takes_axes, takes_offsets) = (true, true);
-                    self.find(Rule::NotFollowed, format!("G{}", word.value));
+                    self.find(Rule::NotFollowed, format!("G{}", Brief(word.value)));
                 }
                 ('G', 640) => takes_offsets = true,
                 ('M', 30 | 40) => spindle = Some(true),
                 ('M', 50) => spindle = Some(false),
                 ('M', 60) => tool_stop = true,
                 ('M', 20 | 300) => end = true,
-                ('M', 980 | 990) => self.find(Rule::NotFollowed, format!("M{}", word.value)),
+                ('M', 980 | 990) => self.find(Rule::NotFollowed, format!("M{}", Brief(word.value))),
                 ('M', t) if t >= 600 => takes_offsets = true,
                 _ => {}
             }

@@ -1,7 +1,9 @@
 //! Findings about a program, of any origin: what a controller refuses, and what the machine should not do.
 
+use super::block::Block;
 use super::interpreter::interpret;
 use super::rules::{Rule, Severity};
+use super::{GRBL, LINUXCNC};
 use crate::cam::{Motion, MotionKind, Program};
 
 /// Whose rules to apply. Our own always apply.
@@ -14,6 +16,26 @@ pub enum Controller {
     /// A program that is to run on either.
     #[default]
     Both,
+}
+
+/// What the header that clopen writes says before the name of the dialect.
+pub const DIALECT_COMMENT: &str = "dialect ";
+
+/// The header of a program is looked for in so many lines.
+const HEADER_LINES: usize = 40;
+
+impl Controller {
+    /// The controller that the header of a program written by clopen names.
+    pub fn of_header(text: &str) -> Option<Controller> {
+        let blocks = text.lines().take(HEADER_LINES).map(Block::parse);
+        let mut comments = blocks.flat_map(|b| b.comments).skip_while(|c| !c.starts_with("clopen "));
+        let name = comments.find_map(|c| c.strip_prefix(DIALECT_COMMENT).map(str::to_owned))?;
+        match name.trim() {
+            name if name == GRBL.name => Some(Controller::Grbl),
+            name if name == LINUXCNC.name => Some(Controller::LinuxCnc),
+            _ => None,
+        }
+    }
 }
 
 /// What to hold a program against.

@@ -14,7 +14,7 @@ mod rules;
 mod writer;
 
 pub use dialect::{Dialect, GRBL, LINUXCNC};
-pub use lint::{Controller, Finding, LOW_TRAVEL, LintOptions, lint};
+pub use lint::{Controller, DIALECT_COMMENT, Finding, LOW_TRAVEL, LintOptions, lint};
 pub use reader::{ReadError, read};
 pub use rules::{RULES, Rule, RuleInfo, Severity};
 pub use writer::{Arcs, LINES_FOR_ARC_TOLERANCE, Units, WriteError, WriteOptions, write};

@@ -118,6 +118,7 @@ rules! {
     SpindleLeftOn "spindle-left-on" Warning grbl ok linuxcnc ok clear "The program ends without M5.";
     ToolLeftDown "tool-left-down" Warning grbl ok linuxcnc ok clear "The program ends with the tool below the top of the stock.";
     NoProgramEnd "no-program-end" Error grbl ok linuxcnc no clear "No M2 or M30 at the end.";
+    AfterEnd "after-end" Warning grbl ok linuxcnc ok clear "Something follows M2 or M30: it never runs, or only after the next start.";
     NoMotion "no-motion" Warning grbl ok linuxcnc ok clear "Nothing moves.";
 }
 

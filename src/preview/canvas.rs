@@ -117,7 +117,8 @@ impl Canvas {
 
     pub(super) fn fill(&mut self, path: Option<&Path>, color: Rgba, mask: Option<&Mask>) {
         if let Some(path) = path {
-            self.pixmap.fill_path(path, &paint(color), FillRule::Winding, Transform::identity(), mask);
+            let paint = Paint { anti_alias: !is_dense(path), ..paint(color) };
+            self.pixmap.fill_path(path, &paint, FillRule::Winding, Transform::identity(), mask);
         }
     }
 
@@ -141,7 +142,8 @@ impl Canvas {
             dash: dash.and_then(|d| StrokeDash::new(d.map(|x| x as f32).to_vec(), 0.0)),
             ..Stroke::default()
         };
-        self.pixmap.stroke_path(path, &paint(color), &stroke, Transform::identity(), mask);
+        let paint = Paint { anti_alias: !is_dense(path), ..paint(color) };
+        self.pixmap.stroke_path(path, &paint, &stroke, Transform::identity(), mask);
     }
 
     /// Limits drawing to the inside of `path`.
@@ -206,6 +208,15 @@ impl Canvas {
     pub(super) fn into_png(self) -> Result<Vec<u8>, PreviewError> {
         self.pixmap.encode_png().map_err(|e| PreviewError::Encoding(e.to_string()))
     }
+}
+
+/// Rows of pixels crossed by all lines of a path, beyond which its edges are not smoothed: smoothing takes time for each of
+/// them, and in such a thicket nothing of it is seen.
+const DENSE: f64 = 4e6;
+
+fn is_dense(path: &Path) -> bool {
+    let heights = path.points().windows(2).map(|w| f64::from((w[1].y - w[0].y).abs()));
+    heights.sum::<f64>() > DENSE
 }
 
 /// Width of the strokes of letters as a fraction of their height.

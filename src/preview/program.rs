@@ -6,7 +6,7 @@ use super::palette;
 use super::sheet::{Entry, Sample, Sheet};
 use crate::cam::{Motion, MotionKind, Program};
 use crate::cam::{Uncut, statistics};
-use crate::plane::{Bounds, Region, Segment};
+use crate::plane::{Bounds, Point, Region, Segment};
 
 /// What the picture of a program shows.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +40,9 @@ const DEPTH_STEPS: usize = 24;
 
 /// Circles are drawn around small uncut places where there are no more than this.
 const MOST_CIRCLES: usize = 16;
+
+/// Places smaller than this over the larger side of what is shown get a circle, which is as large.
+const SMALL_PLACE: f64 = 0.018;
 
 /// The picture of `scene` as a PNG file of `size` pixels on its long side.
 ///
@@ -117,6 +120,9 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
     if let Some(uncut) = scene.uncut.filter(|u| !u.places.is_empty()) {
         let text = format!("uncut {} mm²", short(uncut.area_mm2));
         add(Sample::Fill(palette::UNCUT, Some(palette::UNCUT_LINE)), text);
+        if circled(uncut, &bounds(scene)).next().is_some() {
+            add(Sample::Ring(palette::UNCUT_LINE), "small uncut place".to_owned());
+        }
     }
     if let Some(radius) = scene.tool_radius {
         add(Sample::Fill(palette::SWATH, None), format!("tool {} mm", thousandths(2.0 * radius)));
@@ -147,17 +153,17 @@ fn draw_uncut(scene: &Scene, sheet: &mut Sheet) {
     sheet.canvas.fill(path.as_ref(), palette::UNCUT, None);
     sheet.canvas.hatch(palette::UNCUT_LINE, 6.0 * unit, 1.2 * unit, Some(&mask));
     sheet.canvas.stroke(path.as_ref(), palette::UNCUT_LINE, 0.8 * unit, None);
-    if uncut.places.len() > MOST_CIRCLES {
-        return;
+    for center in circled(uncut, &bounds(scene)) {
+        sheet.canvas.circle(view.pixel(center), 9.0 * unit, palette::UNCUT_LINE, 1.2 * unit);
     }
-    for place in &uncut.places {
-        let b = Bounds::of_points(place.outlines.iter().flatten().copied());
-        let size = 0.5 * b.diagonal() * view.scale;
-        let least = 9.0 * unit;
-        if size < least {
-            sheet.canvas.circle(view.pixel(b.center()), least, palette::UNCUT_LINE, 1.2 * unit);
-        }
-    }
+}
+
+/// The middles of the places that are too small to be seen in a picture of `bounds`.
+fn circled(uncut: &Uncut, bounds: &Bounds) -> impl Iterator<Item = Point> {
+    let least = SMALL_PLACE * bounds.width().max(bounds.height());
+    let places = uncut.places.iter().filter(|_| uncut.places.len() <= MOST_CIRCLES);
+    let boxes = places.map(|place| Bounds::of_points(place.outlines.iter().flatten().copied()));
+    boxes.filter(move |b| b.diagonal() < least).map(|b| b.center())
 }
 
 /// Width of the line of the first of many passes, in the picture's units.

@@ -21,6 +21,8 @@ pub(super) enum Sample {
     Dashed(Rgba),
     /// A dot.
     Dot(Rgba),
+    /// A circle.
+    Ring(Rgba),
     /// A band of colours from left to right.
     Ramp(Vec<Rgba>),
     /// Nothing: words alone.
@@ -155,6 +157,9 @@ impl Sheet {
             Sample::Dot(color) => {
                 self.canvas.disk(Point::new(at.x + 0.5 * w, middle), 0.5 * h, *color);
             }
+            Sample::Ring(color) => {
+                self.canvas.circle(Point::new(at.x + 0.5 * h, middle), 0.6 * h, *color, 1.2 * self.unit);
+            }
             Sample::Ramp(colors) => {
                 let step = w / colors.len().max(1) as f64;
                 for (k, color) in colors.iter().enumerate() {
@@ -176,7 +181,7 @@ const ROW: f64 = 2.3;
 fn sample_width(sample: &Sample, text_height: f64) -> f64 {
     match sample {
         Sample::None => 0.0,
-        Sample::Dot(_) => text_height,
+        Sample::Dot(_) | Sample::Ring(_) => text_height,
         Sample::Ramp(_) => 5.0 * text_height,
         _ => 2.4 * text_height,
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::{MM_PER_INCH, PX_PER_INCH};
+use super::{Brief, MM_PER_INCH, PX_PER_INCH};
 
 /// A length as it was typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,9 @@ pub struct DrawingScale {
 
 /// Why a text is not a length.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("\"{text}\" is no length: write a number with mm, in, px, u or %, for example 2mm or 1/8in")]
+#[error(
+    "\"{text}\" is no length: write a number with mm, in, px, u or %, for example 2mm or 1/8in; a bare number is millimetres"
+)]
 pub struct ParseLengthError {
     text: String,
 }
@@ -121,11 +123,11 @@ fn parse_number(text: &str) -> Option<f64> {
 impl fmt::Display for Length {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Length::Millimetres(x) => write!(f, "{x}mm"),
-            Length::Inches(x) => write!(f, "{x}in"),
-            Length::Pixels(x) => write!(f, "{x}px"),
-            Length::UserUnits(x) => write!(f, "{x}u"),
-            Length::Percent(x) => write!(f, "{x}%"),
+            Length::Millimetres(x) => write!(f, "{}mm", Brief(*x)),
+            Length::Inches(x) => write!(f, "{}in", Brief(*x)),
+            Length::Pixels(x) => write!(f, "{}px", Brief(*x)),
+            Length::UserUnits(x) => write!(f, "{}u", Brief(*x)),
+            Length::Percent(x) => write!(f, "{}%", Brief(*x)),
         }
     }
 }

@@ -2,10 +2,12 @@
 //!
 //! A length is parsed once, at the edge of the program, and resolved once against the drawing it is meant for.
 
+mod brief;
 mod length;
 mod radius;
 mod speed;
 
+pub use brief::Brief;
 pub use length::{DrawingScale, Length, ParseLengthError, ResolveLengthError};
 pub use radius::{InvalidRadius, Radius};
 pub use speed::{ParseSpeedError, Speed};

@@ -1,12 +1,14 @@
 //! The radius of the disk.
 
+use super::Brief;
+
 /// A finite radius above zero. Its unit is that of the geometry it is used on.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Radius(f64);
 
 /// Why a number is not a radius.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the radius is {0}: it must be a finite number above zero")]
+#[error("the radius is {}: it must be a finite number above zero", Brief(*.0))]
 pub struct InvalidRadius(f64);
 
 impl Radius {

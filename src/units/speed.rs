@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::MM_PER_INCH;
+use super::{Brief, MM_PER_INCH};
 
 /// A speed in millimetres a minute, above zero.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -49,7 +49,7 @@ impl FromStr for Speed {
 
 impl fmt::Display for Speed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}mm/min", self.0)
+        write!(f, "{}mm/min", Brief(self.0))
     }
 }
 

@@ -58,6 +58,8 @@ pub(super) struct Collector<'a, 'input> {
     /// Elements with a stroke beside their fill that is not taken.
     fill_alone: HashSet<u32>,
     warned: HashSet<(NodeId, std::mem::Discriminant<WarningKind>)>,
+    /// How many dashes the strokes have so far.
+    dashes: f64,
 }
 
 /// Where the walk is.
@@ -89,6 +91,7 @@ impl<'a, 'input> Collector<'a, 'input> {
             elements: HashMap::new(),
             fill_alone: HashSet::new(),
             warned: HashSet::new(),
+            dashes: 0.0,
         }
     }
 
@@ -247,11 +250,13 @@ impl<'a, 'input> Collector<'a, 'input> {
             return Ok(());
         };
         if self.strokes == Strokes::Areas {
-            let place = self.collection.elements.get(element as usize).cloned();
-            let (area, too_fine) = stroke::area(&outline, stroke);
-            if too_fine && let Some(place) = place {
-                self.collection.warnings.push(Warning { place, kind: WarningKind::DashesTooFine });
-            }
+            let (area, dashes) =
+                stroke::area(&outline, stroke, stroke::MAX_DASHES - self.dashes).map_err(|dashes| {
+                    let place = self.collection.elements.get(element as usize).cloned();
+                    let place = place.unwrap_or_else(|| self.source.place(self.source.document.root_element()));
+                    ReadError::TooManyDashes { place, dashes }
+                })?;
+            self.dashes += dashes;
             self.refuse_huge(element, &area, &affine)?;
             items.push(Item { element, outline: Rc::new(area), affine, rule: usvg::FillRule::NonZero, clips });
         } else if fill.is_none() {

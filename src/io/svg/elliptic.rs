@@ -27,6 +27,10 @@ pub(super) struct EllipticArc {
 /// centre is the root of that difference, so noise in the last digit would move it by 1e-8 of the radius.
 const HALF_TURN_ULPS: f64 = 16.0;
 
+/// An arc that bulges by less than this part of its chord is a straight line: a thousandth of what chords may stray from
+/// curves, and its centre would be beyond all coordinates.
+const FLAT_BULGE: f64 = 1e-9;
+
 /// How unequal the radii of the image of an arc may be, relative, for it to be a circle.
 const CIRCLE_TOLERANCE: f64 = 1e-12;
 
@@ -55,6 +59,10 @@ impl EllipticArc {
         // The half chord in the frame where the ellipse is the unit circle.
         let u = Vector::new((cos * half.x + sin * half.y) / rx, (cos * half.y - sin * half.x) / ry);
         let length_squared = u.norm_squared();
+        // In that frame the bulge is half the squared half chord, and the chord twice that half.
+        if !large_arc && length_squared.sqrt() / 4.0 < FLAT_BULGE * (rx.min(ry) / rx.max(ry)) {
+            return None;
+        }
         let size = from.coords.amax().max(to.coords.amax());
         let noise = HALF_TURN_ULPS * f64::EPSILON * (1.0 + size / rx.min(ry));
         let middle = Point::from((from.coords + to.coords) / 2.0);

@@ -80,6 +80,17 @@ pub enum ReadError {
         /// The coordinate.
         value: f64,
     },
+    /// A dash pattern with too many dashes.
+    #[error(
+        "{place} has {dashes:.1e} dashes, more than 1e5 in the drawing: give it a longer stroke-dasharray, or none for a \
+         solid stroke"
+    )]
+    TooManyDashes {
+        /// The element with which the dashes are too many.
+        place: Place,
+        /// How many it has.
+        dashes: f64,
+    },
     /// Nothing is filled.
     #[error("the drawing has no filled shape{}", nothing(found))]
     NothingFilled {
@@ -214,12 +225,23 @@ pub enum WarningKind {
         /// How many shapes.
         shapes: usize,
     },
-    /// A dash pattern with too many dashes.
-    #[error("the dash pattern is too fine: the stroke is taken as solid")]
-    DashesTooFine,
     /// Digits that went through single precision.
     #[error("its position is known to seven digits only (a transform or unit that needs context)")]
     SinglePrecision,
+    /// A view box that cannot be read.
+    #[error("viewBox=\"{text}\" is not four numbers with width and height above zero: the physical size is not known")]
+    InvalidViewBox {
+        /// What is there.
+        text: String,
+    },
+    /// Text in a font that is not there.
+    #[error("text asks for the font \"{asked}\", which is not installed: set in \"{taken}\"; --font names another")]
+    FontReplaced {
+        /// The family that the text asks for.
+        asked: String,
+        /// The family that it is set in.
+        taken: String,
+    },
     /// `preserveAspectRatio="none"` with different scales.
     #[error("the drawing is stretched unevenly (preserveAspectRatio=\"none\"): its physical size is not used")]
     UnevenScale,

@@ -81,7 +81,8 @@ fn read_with(bytes: &[u8], options: &ReadOptions, other: Option<&Drawing>) -> Re
     let source = Source::new(&document, &prefix);
     leftovers::refuse_huge(&source)?;
     let page = Page::of_root(root);
-    let tree = fonts::tree(&document, options)?.map_err(|error| refusal(error, source.place(root).line))?;
+    let (tree, replaced) = fonts::tree(&document, options)?;
+    let tree = tree.map_err(|error| refusal(error, source.place(root).line))?;
 
     let (group, outer) = below_root(&tree, root, &page);
     let mut collection = Collector::new(&source, options.strokes).collect(group, outer)?;
@@ -94,9 +95,14 @@ fn read_with(bytes: &[u8], options: &ReadOptions, other: Option<&Drawing>) -> Re
         return Err(ReadError::NothingFilled { found: collection.found, warnings: collection.warnings });
     }
     let mut warnings = collection.warnings;
+    let mut warn = |kind| warnings.push(Warning { place: source.place(root), kind });
+    replaced.into_iter().for_each(|(asked, taken)| warn(WarningKind::FontReplaced { asked, taken }));
+    if page.has_invalid_view_box() {
+        warn(WarningKind::InvalidViewBox { text: page.view_box.clone().unwrap_or_default() });
+    }
     let unit = page.unit_size();
     if unit == UnitSize::Uneven {
-        warnings.push(Warning { place: source.place(root), kind: WarningKind::UnevenScale });
+        warn(WarningKind::UnevenScale);
     }
     warnings.sort_by_key(|w| w.place.line);
     let mm_per_unit = match (options.width_mm, options.dpi, unit) {
@@ -177,23 +183,41 @@ struct Filler<'a> {
 
 impl Filler<'_> {
     fn union(&mut self, items: &[Item]) -> Vec<Ring> {
-        let mut areas: Vec<Vec<Ring>> = items.iter().map(|item| self.area(item)).filter(|a| !a.is_empty()).collect();
-        match areas.len() {
-            0 => Vec::new(),
-            1 => areas.remove(0),
-            _ => unite::resolve(areas.concat(), Rule::AtLeast(1)),
+        // What is cut down to the same clip paths is cut at once.
+        let mut first_of: HashMap<&[usize], usize> = HashMap::new();
+        let mut groups: Vec<(&[usize], Vec<Vec<Ring>>)> = Vec::new();
+        for item in items {
+            let area = self.area(item);
+            let clips = item.clips.as_slice();
+            let at = *first_of.entry(clips).or_insert_with(|| {
+                groups.push((clips, Vec::new()));
+                groups.len() - 1
+            });
+            if !area.is_empty() {
+                groups[at].1.push(area);
+            }
         }
+        let mut areas: Vec<Vec<Ring>> = Vec::new();
+        for (clips, group) in groups {
+            if clips.is_empty() {
+                areas.extend(group);
+            } else {
+                let area = united(group);
+                areas.push(self.within(area, clips));
+            }
+        }
+        areas.retain(|area| !area.is_empty());
+        united(areas)
     }
 
-    /// What one item fills, within its clip paths.
+    /// What one item fills, clip paths aside.
     fn area(&mut self, item: &Item) -> Vec<Ring> {
         let rings = sample::rings(&item.outline, &item.affine, self.sampling, item.element, &mut self.sources);
         let rule = match item.rule {
             usvg::FillRule::NonZero => Rule::NonZero,
             usvg::FillRule::EvenOdd => Rule::EvenOdd,
         };
-        let area = unite::resolve(rings, rule);
-        self.within(area, &item.clips)
+        unite::resolve(rings, rule)
     }
 
     fn within(&mut self, mut area: Vec<Ring>, clips: &[usize]) -> Vec<Ring> {
@@ -217,5 +241,13 @@ impl Filler<'_> {
         let rings = self.within(union, &clip.clips);
         self.clips.insert(index, rings.clone());
         rings
+    }
+}
+
+fn united(mut areas: Vec<Vec<Ring>>) -> Vec<Ring> {
+    match areas.len() {
+        0 => Vec::new(),
+        1 => areas.remove(0),
+        _ => unite::resolve(areas.concat(), Rule::AtLeast(1)),
     }
 }

@@ -13,12 +13,14 @@ use super::rough::decimal;
 /// tenth of what sampling then adds.
 const OFFSET_ACCURACY: f64 = 2e-7;
 
-/// More dashes than this in one element are taken for a mistake.
-const MAX_DASHES: f64 = 100_000.0;
+/// More dashes than this in one drawing are taken for a slip: a second or two, and 300 MB.
+pub(super) const MAX_DASHES: f64 = 100_000.0;
 
-/// The area covered by `stroke` along `outline`, to be filled by the nonzero rule, and whether its dashes were so fine
-/// that they are left out.
-pub(super) fn area(outline: &Outline, stroke: &usvg::Stroke) -> (Outline, bool) {
+/// The area covered by `stroke` along `outline`, to be filled by the nonzero rule, and how many dashes it is made of.
+///
+/// # Errors
+/// The number of dashes, where it is above `most`.
+pub(super) fn area(outline: &Outline, stroke: &usvg::Stroke, most: f64) -> Result<(Outline, f64), f64> {
     let width = decimal(stroke.width().get());
     let join = match stroke.linejoin() {
         usvg::LineJoin::Miter | usvg::LineJoin::MiterClip => Join::Miter,
@@ -36,17 +38,19 @@ pub(super) fn area(outline: &Outline, stroke: &usvg::Stroke) -> (Outline, bool) 
     let path = to_kurbo(outline, tolerance);
     let mut style = kurbo::Stroke::new(width).with_join(join).with_caps(cap);
     style = style.with_miter_limit(decimal(stroke.miterlimit().get()));
-    let mut too_fine = false;
+    let mut count = 0.0;
     if let Some(dashes) = stroke.dasharray() {
         let dashes: Vec<f64> = dashes.iter().map(|&d| decimal(d)).collect();
         let period: f64 = dashes.iter().sum();
-        too_fine = path.perimeter(tolerance * 1e3) > period / dashes.len() as f64 * MAX_DASHES;
-        if !too_fine {
-            style = style.with_dashes(decimal(stroke.dashoffset()), dashes);
+        // Of an odd number of lengths every second round begins with a gap: half of them are dashes all the same.
+        count = (path.perimeter(tolerance * 1e3) / period * dashes.len() as f64 / 2.0).ceil();
+        if count.is_nan() || count > most {
+            return Err(count);
         }
+        style = style.with_dashes(decimal(stroke.dashoffset()), dashes);
     }
     let area = kurbo::stroke(path, &style, &StrokeOpts::default(), tolerance);
-    (from_kurbo(&area, width / 2.0), too_fine)
+    Ok((from_kurbo(&area, width / 2.0), count))
 }
 
 fn to_kurbo(outline: &Outline, tolerance: f64) -> BezPath {

@@ -53,12 +53,20 @@ impl Page {
         Some([view.x, view.y, view.w, view.h])
     }
 
+    /// Whether there is a view box that means nothing: then the drawing's own units mean nothing either.
+    pub(super) fn has_invalid_view_box(&self) -> bool {
+        self.view_box.is_some() && self.view_box().is_none()
+    }
+
     pub(super) fn aspect(&self) -> AspectRatio {
         self.preserve_aspect_ratio.as_deref().and_then(|t| AspectRatio::from_str(t).ok()).unwrap_or_default()
     }
 
     pub(super) fn unit_size(&self) -> UnitSize {
         let (width, height) = (physical(self.width.as_deref()), physical(self.height.as_deref()));
+        if self.has_invalid_view_box() {
+            return UnitSize::Unknown;
+        }
         let Some([_, _, view_width, view_height]) = self.view_box() else {
             // Without a view box a user unit is a CSS pixel, provided that the file has a size at all.
             let sized = width.is_some() || height.is_some();
@@ -110,6 +118,7 @@ mod tests {
         assert_eq!(size("100%", "100%", "0 0 9 9", ""), UnitSize::Unknown);
         assert_eq!(size("", "", "0 0 9 9", ""), UnitSize::Unknown);
         assert_eq!(size("", "", "", ""), UnitSize::Unknown);
+        assert_eq!(size("100", "100", "a b c", ""), UnitSize::Unknown);
         assert_eq!(size("", "20mm", "0 0 9 10", ""), mm(2.0));
         // Twice as wide as needed: the drawing is fitted in, or fills.
         assert_eq!(size("20mm", "10mm", "0 0 10 10", ""), mm(1.0));

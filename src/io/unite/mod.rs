@@ -10,10 +10,13 @@
 mod grid;
 mod loops;
 mod meet;
+mod nearby;
 mod overlay;
 mod restore;
 
 use crate::plane::{Bounds, Ring};
+
+use nearby::Surroundings;
 
 /// Rings of less area than this, in parts of the square of the larger side of everything, are left out: rounding makes
 /// slivers of 1e-13, and nothing that anyone draws is a millionth of the drawing wide and long.
@@ -49,15 +52,16 @@ pub(super) fn resolve(rings: Vec<Ring>, rule: Rule) -> Vec<Ring> {
         return Vec::new();
     }
     let groups = meet::groups(&rings, extent);
-    // How often all rings but those of the group run around the group's first vertex, and so around all of it.
-    let around = |group: &[usize]| {
-        let p = rings[group[0]].vertices[0].point;
-        let others = (0..rings.len()).filter(|i| boxes[*i].contains(p) && !group.contains(i));
-        others.map(|i| rings[i].winding_number(p)).sum::<i32>()
-    };
+    let mut group_of = vec![usize::MAX; rings.len()];
+    for (number, group) in groups.iter().enumerate() {
+        group.rings.iter().for_each(|&i| group_of[i] = number);
+    }
+    let surroundings = Surroundings::new(&rings, &boxes);
     let mut resolved = Vec::new();
-    for group in groups {
-        let outside = around(&group.rings);
+    for (number, group) in groups.iter().enumerate() {
+        // How often all other rings run around the group's first vertex, and so around all of it.
+        let first = rings[group.rings[0]].vertices[0].point;
+        let outside = surroundings.winding_number(first, |i| group_of[i] != number);
         if group.meets {
             let members: Vec<&Ring> = group.rings.iter().map(|&i| &rings[i]).collect();
             resolved.extend(overlay::resolve(&members, rule, outside, extent));

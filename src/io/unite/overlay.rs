@@ -5,6 +5,7 @@ use i_overlay::core::edge_overlay::{EdgeOverlay, InputEdge};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::ShapeType;
 use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::core::solver::Precision;
 use i_overlay::segm::boolean::ShapeCountBoolean;
 use i_overlay::vector::edge::{SUBJ_LEFT, SUBJ_RIGHT};
 
@@ -13,11 +14,26 @@ use std::f64::consts::TAU;
 use crate::plane::{Arc, Bounds, Link, Point, Ring, Segment, Turn, Vertex};
 
 use super::grid::{Cell, Grid};
+use super::nearby::Points;
 use super::{Rule, loops, restore};
 
 /// How far the chords that stand for an arc may stray from it, in parts of its radius (or of the drawing, if that is
 /// smaller). Decides only which crossings are seen; where they are is solved on the arcs.
 pub(super) const ARC_CHORDS: f64 = 1e-6;
+
+/// A vertex this near to a straight link, in cells, lies on it: three roundings to the grid.
+const SEAM_CELLS: f64 = 2.5;
+
+/// The same in units of the last digit of the coordinates, where these are coarser than the grid.
+const SEAM_DIGITS: f64 = 4.0;
+
+/// Crossings are moved to ends of edges nearer than 2 cells, then 4, 8...: what is parallel but for rounding must come to
+/// an end soon.
+const SNAPPING: Precision = Precision::MEDIUM_LOW;
+
+/// How fast the samples of circles turn with the radius, in steps for a factor of e. Circles that touch in one point are
+/// images of each other seen from there, and samples at equal angles would put their first chords on one line.
+const TWIST: f64 = 50.0;
 
 /// A link of the rings that are resolved.
 #[derive(Clone, Copy, Debug)]
@@ -65,14 +81,19 @@ pub(super) fn resolve(rings: &[&Ring], rule: Rule, outside: i32, extent: f64) ->
     let grid = Grid::new(bounds, extent);
     let sources = sources(rings);
     let mut overlay = EdgeOverlay::<i64, Tag>::new(2 * sources.len());
+    overlay.solver.precision = SNAPPING;
     let mut add = |a: Cell, b: Cell, data: Tag| overlay.add_edge(InputEdge { a, b, data }, ShapeType::Subject);
+    let seams = Seams::new(&sources, &grid, &bounds);
     for (number, source) in sources.iter().enumerate() {
         let mut from = grid.cell_of(source.start.point);
-        flatten(&source.segment(), extent, |p| {
-            let to = grid.cell_of(p);
+        let mut add_to = |to: Cell| {
             add(from, to, Tag(number as u32));
             from = to;
-        });
+        };
+        match source.start.link {
+            Link::Line => seams.split(&grid, source, &mut add_to),
+            Link::Arc(_) => flatten(&source.segment(), extent, |p| add_to(grid.cell_of(p))),
+        }
     }
     // What runs around the rings elsewhere runs around them here as a frame.
     let (outside, fill_rule) = match rule {
@@ -110,6 +131,49 @@ pub(super) fn resolve(rings: &[&Ring], rule: Rule, outside: i32, extent: f64) ->
     restore::rings(loops, &sources, &grid, extent)
 }
 
+/// Where straight links run over each other: the vertices on them.
+///
+/// The grid turns links on one line into links that cross each other somewhere at an angle of nothing. Each such crossing
+/// moves both by a cell, and makes new crossings. So a link is led through the vertices that lie on it: what runs over
+/// each other is then the same on the grid.
+struct Seams {
+    vertices: Points,
+    /// In cells.
+    reach: f64,
+}
+
+impl Seams {
+    fn new(sources: &[Source], grid: &Grid, bounds: &Bounds) -> Seams {
+        let mut cells: Vec<Cell> = sources.iter().map(|s| grid.cell_of(s.start.point)).collect();
+        cells.sort_unstable_by_key(|c| (c.x, c.y));
+        cells.dedup();
+        let vertices = Points::new(&cells.into_iter().map(in_cells).collect::<Vec<_>>());
+        let corners = [bounds.min, bounds.max];
+        let farthest = corners.iter().flat_map(|p| [p.x.abs(), p.y.abs()]).fold(0.0, f64::max);
+        Seams { vertices, reach: SEAM_CELLS.max(SEAM_DIGITS * f64::EPSILON * farthest / grid.cell()) }
+    }
+
+    /// The cells after the first by which a straight link goes.
+    fn split(&self, grid: &Grid, link: &Source, mut emit: impl FnMut(Cell)) {
+        let [start, end] = [link.start, link.end].map(|v| grid.cell_of(v.point));
+        let mut on_line: Vec<(f64, Cell)> = Vec::new();
+        self.vertices.visit_on_line(in_cells(start), in_cells(end), self.reach, |p, along| {
+            let cell = Cell { x: p.x as i64, y: p.y as i64 };
+            if cell != start && cell != end {
+                on_line.push((along, cell));
+            }
+        });
+        on_line.sort_unstable_by(|(s, a), (t, b)| s.total_cmp(t).then((a.x, a.y).cmp(&(b.x, b.y))));
+        on_line.iter().for_each(|(_, cell)| emit(*cell));
+        emit(end);
+    }
+}
+
+/// Exact: cells have fewer digits than `f64`.
+fn in_cells(cell: Cell) -> Point {
+    Point::new(cell.x as f64, cell.y as f64)
+}
+
 fn sources(rings: &[&Ring]) -> Vec<Source> {
     let mut sources = Vec::with_capacity(rings.iter().map(|r| r.len()).sum());
     for ring in rings {
@@ -128,10 +192,11 @@ fn sources(rings: &[&Ring]) -> Vec<Source> {
 pub(super) fn flatten(segment: &Segment, extent: f64, mut emit: impl FnMut(Point)) {
     if let Link::Arc(arc) = segment.link {
         let step = sample_angle(&arc, extent);
-        let angle = |p: Point| (p.y - arc.center.y).atan2(p.x - arc.center.x);
+        let phase = (TWIST * (arc.radius / extent).ln()).rem_euclid(1.0) * step;
+        let angle = |p: Point| (p.y - arc.center.y).atan2(p.x - arc.center.x) - phase;
         let (from, sweep) = (angle(segment.start), segment.sweep());
         let sample = |k: f64| {
-            let (sin, cos) = (k * step).sin_cos();
+            let (sin, cos) = (k * step + phase).sin_cos();
             Point::new(arc.center.x + arc.radius * cos, arc.center.y + arc.radius * sin)
         };
         // Samples strictly inside, kept a little away from the ends.

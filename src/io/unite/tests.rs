@@ -164,3 +164,58 @@ fn random_outlines_have_the_area_of_their_polygons() {
     }
     assert!(crossings > 500);
 }
+
+/// Rings that run over each other along lines which the grid cannot hold, and circles that touch in one point: their edges
+/// are parallel but for rounding, and must not be cut without end.
+#[test]
+fn seams_on_slanted_lines_and_many_tangent_circles_come_to_an_end() {
+    let (sin, cos) = 33f64.to_radians().sin_cos();
+    let slanted = |x: f64, y: f64| Point::new(cos * x - sin * y, sin * x + cos * y);
+    let on_one_line = |k: u32| {
+        let (x, w, h) = (50.0 - 0.37 * f64::from(k), 20.0 + 1.7 * f64::from(k), 5.0 + 0.5 * f64::from(k));
+        Ring::polygon([slanted(x, 0.0), slanted(x + w, 0.0), slanted(x + w, h), slanted(x, h)])
+    };
+    let result = resolve((0..64).map(on_one_line).collect(), Rule::AtLeast(1));
+    let largest = on_one_line(63).area();
+    let area: f64 = result.iter().map(Ring::area).sum();
+    assert_eq!(result.len(), 1);
+    assert!((area - largest).abs() < 1e-9 * largest, "{area}, not {largest}");
+
+    let grid = |k: u32| {
+        let (x, y) = (f64::from(k % 12), f64::from(k / 12));
+        Ring::polygon([(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)].map(|(x, y)| slanted(x, y)))
+    };
+    let result = resolve((0..144).map(grid).collect(), Rule::AtLeast(1));
+    let area: f64 = result.iter().map(Ring::area).sum();
+    assert_eq!(result.len(), 1);
+    assert!((area - 144.0).abs() < 1e-9, "{area}");
+
+    let nested = |k: u32| Ring::circle(Point::new(5.0 + 0.5 * f64::from(k), 0.0), 5.0 + 0.5 * f64::from(k));
+    let result = resolve((0..64).map(nested).collect(), Rule::EvenOdd);
+    let area: f64 = result.iter().map(Ring::area).sum();
+    let expected: f64 = (0..64).map(|k| if k % 2 == 1 { nested(k).area() } else { -nested(k).area() }).sum();
+    assert!((area - expected).abs() < 1e-4 * expected, "{area}, not {expected}");
+}
+
+/// Thousands of rings apart, in no order, among each other and within a large one of many links.
+#[test]
+fn many_rings_apart_pass_through() {
+    let mut rings: Vec<Ring> = (0..20_000u64)
+        .map(|k| {
+            // 7919 is prime to 20 000: all places, far from each other in the list.
+            let place = k * 7919 % 20_000;
+            Ring::circle(Point::new((place % 200) as f64, (place / 200) as f64), 0.3)
+        })
+        .collect();
+    rings.push(Ring::circle(Point::new(100.0, 50.0), 400.0));
+    let hull = Ring::polygon((0..5000).map(|k| {
+        let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 5000.0).sin_cos();
+        Point::new(100.0 + 300.0 * cos, 50.0 + 300.0 * sin)
+    }));
+    rings.push(hull);
+    let result = resolve(rings.clone(), Rule::EvenOdd);
+    assert_eq!(result.len(), rings.len());
+    // Large ring solid, the hull in it a hole, the circles solid.
+    let solid = result.iter().filter(|r| r.area() > 0.0).count();
+    assert_eq!(solid, 20_001);
+}
