@@ -1185,3 +1185,126 @@ fn keeping_outlines_that_would_cross() {
         obeys(&input, r, Operation::Close);
     }
 }
+
+/// Far away a corner that is rounding got an arc whose ends lay beside each other.
+#[test]
+fn an_arc_shorter_than_rounding_is_not_made() {
+    let sliver = Ring {
+        vertices: vec![
+            line(524289.1609667536, -524285.0603081633),
+            arc(
+                524289.1446783574,
+                -524285.1788150464,
+                524289.5472684224,
+                -524285.2341497772,
+                0.4063750643185611,
+                Turn::Left,
+            ),
+            line(524289.1408933582, -524285.2341497772),
+            arc(
+                524289.1408933582,
+                -524285.3501585578,
+                524289.5472684224,
+                -524285.3501585578,
+                0.4063750643185611,
+                Turn::Left,
+            ),
+            line(524289.1446783574, -524285.4054932886),
+            line(524289.1484596753, -524285.7126581273),
+            arc(
+                524289.1484596753,
+                -524285.71805168944,
+                524289.5548347397,
+                -524285.71805168944,
+                0.4063750643185611,
+                Turn::Left,
+            ),
+            line(524289.155378983, -524285.7927229116),
+            arc(
+                524289.1563700475,
+                -524285.79802463803,
+                524289.5558258041,
+                -524285.7233534159,
+                0.4063750643185611,
+                Turn::Left,
+            ),
+            line(524289.1768923418, -524285.87015302124),
+        ],
+    };
+    let neighbour = Ring {
+        vertices: vec![
+            line(524288.9831658251, -524284.5930783506),
+            arc(
+                524288.3340286897,
+                -524286.307553528,
+                524288.2052351019,
+                -524285.9221279131,
+                0.4063750643185611,
+                Turn::Left,
+            ),
+            line(524288.6103945692, -524285.89071933297),
+            arc(
+                524289.0973020585,
+                -524285.15633167373,
+                524288.7586072802,
+                -524284.93177312886,
+                0.4063750643185611,
+                Turn::Left,
+            ),
+        ],
+    };
+    obeys(&Region::new(vec![sliver, neighbour]), 0.6576195691939956, Operation::Close);
+}
+
+/// Moved back to its place, far away, a short arc had its ends exchanged, and was a whole circle.
+#[test]
+fn a_short_arc_far_away_does_not_run_around() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(
+                1048578.3788617346,
+                -1048575.5917647126,
+                1048579.6342978892,
+                -1048575.03302325,
+                1.3741586370135108,
+                Turn::Left,
+            ),
+            line(1048580.7727649745, -1048575.8025715948),
+            line(1048574.958920217, -1048570.8709745117),
+            arc(
+                1048574.960413508,
+                -1048570.862505638,
+                1048573.6071314283,
+                -1048570.6238854949,
+                1.3741586370135108,
+                Turn::Left,
+            ),
+            line(1048574.9812900653, -1048570.6238854949),
+            line(1048574.960413508, -1048570.2138295562),
+            line(1048574.708783708, -1048569.4354421283),
+            line(1048572.7130892713, -1048568.1842489053),
+            line(1048570.2734526817, -1048570.4524496994),
+        ],
+    }]);
+    obeys(&input, 1.2945984545759612, Operation::Open);
+}
+
+/// Short new arcs had no direction worth the name, and the locus crossed itself at some of them: of 300 000 vertices four
+/// were left.
+#[test]
+fn a_smooth_outline_sampled_a_hundred_thousand_times() {
+    const SAMPLES: usize = 100_000;
+    let at = |k: usize| {
+        let angle = std::f64::consts::TAU * k as f64 / SAMPLES as f64;
+        let distance = 50.0 + 12.0 * (5.0 * angle).cos() + 2.0 * (37.0 * angle).sin();
+        Point::new(distance * angle.cos(), distance * angle.sin())
+    };
+    let input = Region::new(vec![Ring::polygon((0..SAMPLES).map(at))]);
+    let r = laws::radius(0.02 * input.bounds().diagonal());
+    let outcome = rolling::close(&input, r, Topology::Merge);
+    assert_eq!(outcome.contradictions, 0);
+    assert_eq!(outcome.differences, vec![]);
+    let (violation, place) = laws::containment(&input, &outcome.region, Operation::Close, r.get());
+    assert!(violation <= 1e-9 * r.get(), "{violation} at {place}");
+    assert!(outcome.region.vertex_count() > SAMPLES / 3);
+}

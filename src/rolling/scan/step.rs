@@ -9,11 +9,16 @@ use crate::rolling::track::{Contact, Track};
 impl Roller<'_> {
     pub(super) fn decide(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
         let step = self.propose(a, b, c, excess);
-        // Without turns beyond half a turn, steps are outward by their construction.
-        if self.mode == Mode::Geodesic && !self.is_outward(&step, a, b, c) { Step::Refuse } else { step }
+        // An arc this short is rounding, and its ends may lie anywhere about each other.
+        if let Step::Cut(arc) | Step::Corner { arc, .. } = step
+            && (arc.end - arc.start).norm() <= self.min_excess * self.r
+        {
+            return Step::Refuse;
+        }
+        // What is safe has no turn beyond half a turn, and steps outward by its construction.
+        if self.mode == Mode::Safe || self.is_outward(&step, a, b, c) { step } else { Step::Refuse }
     }
 
-    #[inline]
     fn propose(&self, a: u32, b: u32, c: u32, excess: f64) -> Step {
         match (self.is_rolling(a), self.is_rolling(b)) {
             (true, true) => self.kill(a, b, c),
