@@ -6,7 +6,7 @@ use super::path_radius::{TightestTurns, tightest_turns};
 use super::removal::{Uncut, uncut};
 use super::solid::Remainder;
 use super::time::{Machine, ProgramTime, estimate};
-use crate::plane::Region;
+use crate::plane::{Bounds, Region};
 
 /// What a program is held against.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +72,21 @@ pub struct ProgramStatistics {
     pub arcs: usize,
     /// Times the tool goes down into the stock.
     pub entries: usize,
+    /// Where the tool's centre is while it cuts; `None` where nothing is cut.
+    pub cut_box: Option<CutBox>,
+}
+
+/// A box in the program's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct CutBox {
+    /// Left side, in millimetres.
+    pub min_x_mm: f64,
+    /// Front side, in millimetres.
+    pub min_y_mm: f64,
+    /// Right side, in millimetres.
+    pub max_x_mm: f64,
+    /// Back side, in millimetres.
+    pub max_y_mm: f64,
 }
 
 /// Levels closer than this are one pass, in millimetres.
@@ -85,6 +100,7 @@ pub fn statistics(program: &Program, stock_top: f64) -> ProgramStatistics {
     let mut s = ProgramStatistics::default();
     // Heights and the way along them.
     let mut levels: Vec<(f64, f64)> = Vec::new();
+    let mut bounds = Bounds::EMPTY;
     for motion in &program.motions {
         let length = motion.length();
         match motion.kind {
@@ -95,6 +111,9 @@ pub fn statistics(program: &Program, stock_top: f64) -> ProgramStatistics {
         }
         if motion.is_feed() {
             *(if motion.is_in_stock(stock_top) { &mut s.cut_length_mm } else { &mut s.air_length_mm }) += length;
+        }
+        if motion.is_in_stock(stock_top) {
+            bounds = motion.trace().fold(bounds.with_point(motion.to.xy()), |b, s| b.union(s.bounds()));
         }
         s.depth_mm = s.depth_mm.max(stock_top - motion.lowest());
         if motion.from.z >= stock_top && motion.to.z < stock_top {
@@ -113,6 +132,12 @@ pub fn statistics(program: &Program, stock_top: f64) -> ProgramStatistics {
     });
     let longest = levels.iter().map(|l| l.1).fold(0.0, f64::max);
     s.passes = levels.iter().filter(|l| l.1 > LEAST_PASS * longest).count();
+    s.cut_box = (!bounds.is_empty()).then_some(CutBox {
+        min_x_mm: bounds.min.x,
+        min_y_mm: bounds.min.y,
+        max_x_mm: bounds.max.x,
+        max_y_mm: bounds.max.y,
+    });
     s
 }
 
@@ -160,6 +185,8 @@ mod tests {
         let around = 40.0 + 4.0 * std::f64::consts::PI;
         assert!((s.cut_length_mm - (2.0 * around + 6.0 + 1.0)).abs() < 1e-9, "{s:?}");
         assert_eq!(s.rapid_length_mm, 2.0 + 7.0);
+        let around = CutBox { min_x_mm: -2.0, min_y_mm: -2.0, max_x_mm: 12.0, max_y_mm: 12.0 };
+        assert_eq!(s.cut_box, Some(around), "the tool's radius outside of the square");
         assert_eq!(found.time.dwell_seconds, 2.0);
         let json = serde_json::to_value(&found).unwrap();
         assert_eq!(json["statistics"]["depth_mm"], 2.0);
@@ -177,7 +204,7 @@ mod tests {
     #[test]
     fn a_program_that_cuts_nothing_is_no_panic() {
         let nothing = certify(&Program::default(), &Region::default(), &Region::default(), &CertifyOptions::new(1.0));
-        assert_eq!(nothing.gouge, None);
+        assert_eq!((nothing.gouge, nothing.statistics.cut_box), (None, None));
         assert!(!nothing.uncut.is_cut_free);
     }
 }

@@ -34,7 +34,7 @@ mod time;
 mod toolpath;
 mod walk;
 
-pub use certificate::{Certificate, CertifyOptions, ProgramStatistics, certify, statistics};
+pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, certify, statistics};
 pub use contour::Contour;
 pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};
 pub use gouge::{Gouge, deepest_cut};

@@ -129,8 +129,10 @@ fn lines(report: &Report, tolerance: f64, topology: TopologyArg, passes: bool) -
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{label:<22}{value}");
     };
-    let at =
-        |place: Option<crate::check::Place>| place.map_or(String::new(), |p| format!(" at ({:.6}, {:.6})", p.x, p.y));
+    // As SVG counts and as `clopen close` names places: y down.
+    let at = |place: Option<crate::check::Place>| {
+        place.map_or(String::new(), |p| format!(" at ({:.6}, {:.6})", p.x, 0.0 - p.y))
+    };
     let r = report.radius_units;
     line("radius", format!("{r} user units"));
     line(
@@ -173,6 +175,13 @@ fn lines(report: &Report, tolerance: f64, topology: TopologyArg, passes: bool) -
             "where topology agrees it passes: --topology keep accepts that, as clopen close does by default".to_owned(),
         );
     }
+    if !passes && topology == TopologyArg::Keep && report.containment.violation_over_r <= tolerance {
+        line(
+            "",
+            "the reference merges: where clopen close or open said that --topology merge would differ, this is meant"
+                .to_owned(),
+        );
+    }
     let meant = if topology == TopologyArg::Keep { ", where topology agrees" } else { "" };
     let verdict = if passes { "passes" } else { "fails" };
     line("verdict", format!("{verdict} at a tolerance of {tolerance:e} r{meant}"));
@@ -206,7 +215,7 @@ mod tests {
         assert!(right.passes, "{}", right.text);
         let untouched = check(&args(), &l_corner(), None, &l_corner()).unwrap();
         assert!(
-            !untouched.passes && untouched.text.contains("smallest radius       0.000000 r at (3.000000, 3.000000)"),
+            !untouched.passes && untouched.text.contains("smallest radius       0.000000 r at (3.000000, -3.000000)"),
             "{}",
             untouched.text
         );

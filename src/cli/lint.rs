@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 
 use super::ExitStatus;
@@ -43,9 +43,12 @@ enum ControllerArg {
 /// Runs the command: exit status 1 where an error is found.
 ///
 /// # Errors
-/// Where the file cannot be read.
+/// Where the file cannot be read, or is a drawing.
 pub(super) fn run(args: &LintArgs) -> Result<ExitStatus> {
     let text = input::read_text(&args.file)?;
+    if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
+        bail!("{}: this is a drawing and no program: name what `clopen mill` wrote", args.file.display());
+    }
     let stock_top = input::millimetres(args.stock_top, "--stock-top")?;
     let controller = match args.controller {
         Some(ControllerArg::Grbl) => Controller::Grbl,

@@ -305,10 +305,10 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
     };
     let toolpath = cam::plan(job, part, &closed).map_err(|error| match (error, settings.topology) {
         (PlanError::Offset(OffsetError::NoRoom { at }), Topology::Keep) => anyhow!(
-            "the tool does not fit between parts of the outline at ({:.4}, {:.4}) of the drawing, y up, in millimetres: \
+            "the tool does not fit between parts of the outline at ({:.4}, {:.4}) of the drawing, y down, in millimetres: \
              try --topology merge, which fills such places, or a smaller tool",
             at.x,
-            at.y
+            0.0 - at.y
         ),
         (error, _) => error.into(),
     })?;

@@ -30,7 +30,13 @@ pub(super) fn write_together(contents: &[Content]) -> Result<()> {
     let mut staged = Vec::new();
     let mut streams = Vec::new();
     for &(path, bytes) in contents {
-        match stage(path, bytes).with_context(|| cannot(path))? {
+        // A temporary file that cannot be made is named in the error, and is nothing to anyone.
+        let plain = |e: std::io::Error| match e.kind() {
+            std::io::ErrorKind::NotFound => std::io::Error::new(e.kind(), "there is no such folder"),
+            kind if e.get_ref().is_some() => kind.into(),
+            _ => e,
+        };
+        match stage(path, bytes).map_err(plain).with_context(|| cannot(path))? {
             Staged::Stream => streams.push((path, bytes)),
             Staged::File { file, target } => staged.push((path, file, target)),
         }

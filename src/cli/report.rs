@@ -125,23 +125,45 @@ impl MillReport<'_> {
         line(
             "tool",
             format!(
-                "{}, path radius {}, closing radius {}, {} pass{}, {}",
+                "{}, path radius {}: corners that it cannot enter are rounded to {}",
                 self.length(self.job.tool_diameter, 3),
                 self.length(self.job.path_radius_mm(), 3),
                 self.length(self.job.closing_radius(), 3),
+            ),
+        );
+        line(
+            "depth",
+            format!(
+                "{} in {} pass{}, {}",
+                self.length(s.depth_mm, 2),
                 s.passes,
                 if s.passes == 1 { "" } else { "es" },
                 self.dialect
             ),
         );
+        if let Some(b) = s.cut_box {
+            let half = 0.5 * self.job.tool_diameter;
+            let sides = [b.min_x_mm - half, b.max_x_mm + half, b.min_y_mm - half, b.max_y_mm + half];
+            let ranges = |unit: f64, decimals: usize| {
+                let [left, right, front, back] = sides.map(|side| format!("{:.decimals$}", side / unit));
+                format!("x {left} to {right}, y {front} to {back}")
+            };
+            let inches = match self.options.units {
+                Units::Millimetres => String::new(),
+                Units::Inches => format!(" ({} in)", ranges(MM_PER_INCH, 4)),
+            };
+            line("takes up", format!("{} mm{inches}, the tool's width included", ranges(1.0, 3)));
+        }
         self.cut_lines(&mut line);
-        let radius = |r: Option<f64>| r.map_or("straight".to_owned(), |mm| self.length(mm, 3));
+        let radius = |r: Option<f64>| r.map_or("none (straight)".to_owned(), |mm| self.length(mm, 3));
+        let concave = c.path_radius.smallest_concave_mm;
         line(
             "path",
             format!(
-                "smallest radius {}, in inside corners {}{}",
+                "smallest radius {}, {}{}",
                 radius(c.path_radius.smallest_mm),
-                radius(c.path_radius.smallest_concave_mm),
+                concave
+                    .map_or("no inside corners".to_owned(), |mm| format!("in inside corners {}", self.length(mm, 3))),
                 if self.options.arcs == Arcs::Lines { " (before it was broken into lines)" } else { "" }
             ),
         );
@@ -258,11 +280,15 @@ fn minutes(seconds: f64) -> String {
     }
 }
 
-/// Sizes are known to a hundredth of themselves.
+/// Sizes of features are known to this part of themselves.
+const SIZE_ACCURACY: f64 = 0.01;
+
 fn describe(feature: &LostFeature, job: &Job) -> String {
     let at = |p: &Place| format!("at ({:.3}, {:.3})", p.x, p.y);
     let why = |width: f64| {
-        if width < job.tool_diameter {
+        if (width - job.tool_diameter).abs() < SIZE_ACCURACY * job.tool_diameter {
+            format!("that is the tool of {} mm, which needs more room to move", job.tool_diameter)
+        } else if width < job.tool_diameter {
             format!("the tool of {} mm does not fit", job.tool_diameter)
         } else {
             let room = 0.5 * (width - job.tool_diameter);

@@ -74,7 +74,7 @@ rules! {
     ToolChange "tool-change" Error grbl 20 linuxcnc ok clear "M6: GRBL has no tool changer.";
     NotFollowed "not-followed" Error grbl 20 linuxcnc ok lost "A cycle, spline or cutter compensation, which this reader does not follow.";
     ShiftedOrigin "shifted-origin" Warning grbl ok linuxcnc ok clear "An offset or a change of coordinate system; positions are read as if there were none.";
-    Homing "homing" Warning grbl ok linuxcnc ok clear "A motion to a place that only the machine knows.";
+    Homing "homing" Warning grbl ok linuxcnc ok clear "A motion to a place that only the machine knows (G28, G30, G53).";
     DuplicateWord "duplicate-word" Error grbl 25 linuxcnc no lost "The same letter twice on a line.";
     ConflictingCodes "conflicting-codes" Error grbl 21 linuxcnc no lost "Two codes of one group on a line.";
     UnusedWord "unused-word" Error grbl 36 linuxcnc no clear "A word that nothing on its line uses.";
@@ -97,8 +97,8 @@ rules! {
     // Arcs.
     ArcWithoutCenter "arc-without-center" Error grbl 35 linuxcnc no lost "An arc with neither I, J nor R.";
     ArcWithoutEnd "arc-without-end" Error grbl 26 linuxcnc ok clear "An arc without X and Y.";
-    ArcRadiusMismatch "arc-radius-mismatch" Error grbl 33 linuxcnc ok clear "Ends of an arc at different distances from its centre: above 0.5 mm, or above 0.005 mm and 0.1 %.";
-    ArcRadiusMismatchLinuxcnc "arc-radius-mismatch-linuxcnc" Error grbl ok linuxcnc no clear "Ends of an arc at different distances from its centre: above 0.028 mm and 0.1 %, or above 2.8 mm.";
+    ArcRadiusMismatch "arc-radius-mismatch" Error grbl 33 linuxcnc ok clear "Ends of an arc at different distances from its centre: above 0.5 mm, or above 0.005 mm and 0.1 %, which GRBL refuses.";
+    ArcRadiusMismatchLinuxcnc "arc-radius-mismatch-linuxcnc" Error grbl ok linuxcnc no clear "Ends of an arc at different distances from its centre: above 0.028 mm and 0.1 %, or above 2.8 mm, which LinuxCNC refuses.";
     ArcImprecise "arc-imprecise" Warning grbl ok linuxcnc ok clear "Ends of an arc at distances from its centre that differ by more than 0.002 mm.";
     ArcWrongPlane "arc-wrong-plane" Error grbl ok linuxcnc no clear "A centre word that is not of the plane in force.";
     ArcOtherPlane "arc-other-plane" Warning grbl ok linuxcnc ok clear "An arc outside of the XY plane.";

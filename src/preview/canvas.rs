@@ -170,6 +170,16 @@ impl Canvas {
         self.stroke(circle.as_ref(), color, width, None);
     }
 
+    /// A circle with a cross that sticks out of it.
+    pub(super) fn target(&mut self, center: Point, radius: f64, color: Rgba, width: f64) {
+        let arm = 1.6 * radius;
+        self.circle(center, radius, color, width);
+        for (dx, dy) in [(arm, 0.0), (0.0, arm)] {
+            let end = |sign: f64| Point::new(center.x + sign * dx, center.y + sign * dy);
+            self.line(end(-1.0), end(1.0), color, width, None);
+        }
+    }
+
     pub(super) fn line(&mut self, from: Point, to: Point, color: Rgba, width: f64, dash: Option<[f64; 2]>) {
         let mut builder = PathBuilder::new();
         move_to(&mut builder, from);

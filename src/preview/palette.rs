@@ -22,6 +22,8 @@ pub(super) const UNCUT_LINE: Rgba = [217, 72, 15, 255];
 pub(super) const RAPID: Rgba = [134, 142, 150, 255];
 /// Where the tool goes down.
 pub(super) const START: Rgba = [47, 158, 68, 255];
+/// Where x and y are zero.
+pub(super) const ORIGIN: Rgba = [112, 72, 232, 255];
 /// What an operation adds to an outline, and what it takes from it.
 pub(super) const ADDED: Rgba = [252, 194, 215, 255];
 pub(super) const REMOVED: Rgba = [165, 216, 255, 255];

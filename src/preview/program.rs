@@ -83,6 +83,9 @@ pub fn program(scene: &Scene, size: u32) -> Result<Vec<u8>, PreviewError> {
         sheet.canvas.disk(at, 4.2 * unit, palette::WHITE);
         sheet.canvas.disk(at, 3.2 * unit, palette::START);
     }
+    if bounds.contains(Point::origin()) {
+        sheet.canvas.target(view.pixel(Point::origin()), 5.0 * unit, palette::ORIGIN, 1.4 * unit);
+    }
     sheet.finish("mm")
 }
 
@@ -115,7 +118,7 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
         add(Sample::Line(palette::KEPT, 1.5 * unit), "outline".to_owned());
     }
     if scene.kept.is_some_and(|kept| !split_moved(kept, scene.part, SAME_BOUNDARY).1.is_empty()) {
-        add(Sample::Line(palette::MOVED, 2.0 * unit), "rounded".to_owned());
+        add(Sample::Line(palette::MOVED, 2.0 * unit), "rounded by the tool".to_owned());
     }
     if let Some(uncut) = scene.uncut.filter(|u| !u.places.is_empty()) {
         let text = format!("uncut {} mm²", short(uncut.area_mm2));
@@ -125,7 +128,7 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
         }
     }
     if let Some(radius) = scene.tool_radius {
-        add(Sample::Fill(palette::SWATH, None), format!("tool {} mm", thousandths(2.0 * radius)));
+        add(Sample::Fill(palette::SWATH, None), format!("cut, {} mm wide", thousandths(2.0 * radius)));
     }
     if depth > 0.0 {
         let colors = (0..=DEPTH_STEPS).map(|k| palette::depth(k as f64 / DEPTH_STEPS as f64)).collect();
@@ -136,6 +139,9 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
     }
     if scene.program.motions.iter().any(|m| m.is_in_stock(scene.stock_top)) {
         add(Sample::Dot(palette::START), "entry".to_owned());
+    }
+    if bounds(scene).contains(Point::origin()) {
+        add(Sample::Target(palette::ORIGIN), "x 0, y 0".to_owned());
     }
     entries
 }

@@ -23,6 +23,8 @@ pub(super) enum Sample {
     Dot(Rgba),
     /// A circle.
     Ring(Rgba),
+    /// A circle with a cross in it.
+    Target(Rgba),
     /// A band of colours from left to right.
     Ramp(Vec<Rgba>),
     /// Nothing: words alone.
@@ -160,6 +162,9 @@ impl Sheet {
             Sample::Ring(color) => {
                 self.canvas.circle(Point::new(at.x + 0.5 * h, middle), 0.6 * h, *color, 1.2 * self.unit);
             }
+            Sample::Target(color) => {
+                self.canvas.target(Point::new(at.x + 0.5 * w, middle), 0.5 * h, *color, 1.4 * self.unit);
+            }
             Sample::Ramp(colors) => {
                 let step = w / colors.len().max(1) as f64;
                 for (k, color) in colors.iter().enumerate() {
@@ -182,6 +187,7 @@ fn sample_width(sample: &Sample, text_height: f64) -> f64 {
     match sample {
         Sample::None => 0.0,
         Sample::Dot(_) | Sample::Ring(_) => text_height,
+        Sample::Target(_) => 1.6 * text_height,
         Sample::Ramp(_) => 5.0 * text_height,
         _ => 2.4 * text_height,
     }

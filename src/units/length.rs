@@ -32,7 +32,8 @@ pub struct DrawingScale {
 /// Why a text is not a length.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "\"{text}\" is no length: write a number with mm, in, px, u or %, for example 2mm or 1/8in; a bare number is millimetres"
+    "\"{text}\" is no length: write a number with mm, in, px, u or %, for example 2mm or 1/8in; a bare number is \
+     millimetres, and a fraction needs its unit"
 )]
 pub struct ParseLengthError {
     text: String,
@@ -97,6 +98,8 @@ impl FromStr for Length {
         let unit = trimmed[digits.len()..].to_ascii_lowercase();
         let number = parse_number(digits.trim()).ok_or_else(error)?;
         match unit.as_str() {
+            // Who writes 1/8 and no unit means inches more often than an eighth of a millimetre: nobody guesses.
+            "" if digits.contains('/') => Err(error()),
             "" | "mm" => Ok(Length::Millimetres(number)),
             "cm" => Ok(Length::Millimetres(number * 10.0)),
             "in" | "\"" => Ok(Length::Inches(number)),
@@ -154,7 +157,7 @@ mod tests {
         ] {
             assert_eq!(text.parse(), Ok(expected), "{text}");
         }
-        for text in ["", "mm", "2 metres", "1/0in", "nan", "inf", "1/2/3", "2mm mm", "1e999"] {
+        for text in ["", "mm", "2 metres", "1/0in", "nan", "inf", "1/2/3", "1/8", "2mm mm", "1e999"] {
             assert!(text.parse::<Length>().is_err(), "{text} should be refused");
         }
     }

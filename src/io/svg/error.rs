@@ -100,12 +100,12 @@ pub enum ReadError {
         warnings: Vec<Warning>,
     },
     /// A font file cannot be read.
-    #[error("the font {} cannot be read: {source}", path.display())]
+    #[error("the font {} cannot be read: {reason}", path.display())]
     Font {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// An option has no meaning.
     #[error("{name} is {value}: it must be a finite number above zero")]
@@ -134,16 +134,16 @@ pub struct Found {
 
 fn nothing(found: &Found) -> String {
     let mut parts = Vec::new();
-    let mut say = |count: usize, what: &str, remedy: &str| {
+    let mut say = |count: usize, what: &str, which: &str, remedy: &str| {
         if count > 0 {
-            parts.push(format!("{count} {what}{} ({remedy})", if count == 1 { "" } else { "s" }));
+            parts.push(format!("{count} {what}{}{which} ({remedy})", if count == 1 { "" } else { "s" }));
         }
     };
-    say(found.strokes, "stroke", "--strokes takes strokes as areas");
-    say(found.texts, "text without a font", "name a font file with --font, or convert text to paths");
-    say(found.images, "image", "trace images to paths");
-    say(found.hidden, "hidden shape", "show the layer");
-    say(found.unpainted, "shape without fill or area", "give it a fill");
+    say(found.strokes, "stroke", "", "fill the shapes; or --strokes, which takes strokes as areas");
+    say(found.texts, "text", " whose font is not installed", "name a font file with --font, or convert text to paths");
+    say(found.images, "image", "", "trace images to paths");
+    say(found.hidden, "hidden shape", "", "show the layer");
+    say(found.unpainted, "shape", " without fill or area", "give it a fill");
     match parts.len() {
         0 => ": there is nothing in it; draw a closed shape and fill it".to_owned(),
         _ => format!(", only {}", parts.join(", ")),
@@ -209,13 +209,15 @@ pub enum WarningKind {
         href: String,
     },
     /// No font to set it in.
-    #[error("the text \"{text}\" cannot be set, for want of a font: name one with --font, or convert text to paths")]
+    #[error(
+        "the text \"{text}\" is left out, as its font is not installed: name a file with --font, or convert text to paths"
+    )]
     TextWithoutFont {
         /// The text.
         text: String,
     },
     /// Strokes that were not asked for.
-    #[error("has a stroke and no fill: left out; --strokes takes strokes as areas")]
+    #[error("has a stroke and no fill: left out; fill it, or take strokes as areas with --strokes")]
     StrokeOnly,
     /// Strokes that were not asked for, on shapes that are filled. Said once, of the whole file.
     #[error(
