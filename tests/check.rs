@@ -159,3 +159,18 @@ fn nothing_is_compared_without_a_word() {
     let both = report(&Region::default(), &Region::default(), Operation::Close);
     assert!(both.passes(0.0, false), "{both:?}");
 }
+
+/// Two disks of free space overlap in the gap between two bumps: each bump gets a tip, and nothing is joined.
+#[test]
+fn tips_in_a_neck_are_left_out_where_topology_is_kept() {
+    let bumps = shapes::two_disks(4.0, 9.9);
+    let merged = closed(&bumps, 1.0, Operation::Close);
+    assert_eq!(merged.topology(), bumps.topology());
+    let kept = report(&bumps, &bumps, Operation::Close);
+    assert!(kept.hausdorff.largest_over_r > 1e-2, "{}", kept.hausdorff.largest_over_r);
+    assert!(kept.passes(1e-4, true));
+    assert!(!kept.passes(1e-4, false));
+    // A fillet that is missing is no matter of topology.
+    let corner = shapes::placed(&shapes::slotted_plate(20.0, 10.0, 4.0, 3.0), 0.0, 1.0, Vector::zeros());
+    assert!(!report(&corner, &corner, Operation::Close).passes(1e-4, true));
+}

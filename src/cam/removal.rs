@@ -152,6 +152,27 @@ fn is_on_frame(p: Point, frame: &Bounds) -> bool {
     near(p.x, frame.min.x) || near(p.x, frame.max.x) || near(p.y, frame.min.y) || near(p.y, frame.max.y)
 }
 
+/// The point of some edges farthest from the part, at least as far as `deepest`. An edge is given by its ends with their
+/// distances; between them no distance exceeds half the sum of these and the length.
+fn deepest_along(mut edges: Vec<(Point, f64, Point, f64)>, mut deepest: (f64, Point), solid: &Solid) -> (f64, Point) {
+    // A long piece of even depth has no deepest point: then nearly the deepest is enough.
+    const ACCURACY: f64 = 1e-3;
+    const MOST_LOOKS: usize = 2000;
+    for _ in 0..MOST_LOOKS {
+        let Some((p, at_p, q, at_q)) = edges.pop() else { break };
+        if 0.5 * (at_p + at_q + (q - p).norm()) <= deepest.0 * (1.0 + ACCURACY) {
+            continue;
+        }
+        let middle = nalgebra::center(&p, &q);
+        let at_middle = solid.boundary.distance(middle);
+        if at_middle > deepest.0 {
+            deepest = (at_middle, middle);
+        }
+        edges.extend([(p, at_p, middle, at_middle), (middle, at_middle, q, at_q)]);
+    }
+    deepest
+}
+
 /// The place that a piece makes; `None` where it is thin enough to be rounding.
 fn place(shape: &[Polygon], solid: &Solid) -> Option<UncutPlace> {
     let outlines: Vec<Vec<Point>> =
@@ -159,6 +180,7 @@ fn place(shape: &[Polygon], solid: &Solid) -> Option<UncutPlace> {
     let is_skin = |d: f64| d < 1.5 * SKIN;
     let (mut doubled_area, mut contact, mut perimeter) = (0.0, 0.0, 0.0);
     let mut deepest = (0.0, *outlines.first()?.first()?);
+    let mut edges = vec![];
     for ring in &outlines {
         let origin = ring.first()?.coords;
         let distances: Vec<f64> = ring.iter().map(|p| solid.boundary.distance(*p)).collect();
@@ -173,8 +195,10 @@ fn place(shape: &[Polygon], solid: &Solid) -> Option<UncutPlace> {
             if distances[i] > deepest.0 {
                 deepest = (distances[i], *p);
             }
+            edges.push((*p, distances[i], q, distances[next]));
         }
     }
+    deepest = deepest_along(edges, deepest, solid);
     // Surrounded by the part, as an unreached hole is, a piece is thickest somewhere inside.
     if contact > MOSTLY * perimeter {
         let circle =

@@ -4,7 +4,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::overlay::FloatOverlay;
 
-use crate::plane::{BoundaryIndex, Point, Region, Ring, Segment};
+use crate::plane::{BoundaryIndex, Link, Point, Region, Ring, Segment, turn_angle};
 
 /// The sagitta of flattened arcs over the radius.
 pub(super) const FLATNESS: f64 = 1e-3;
@@ -17,6 +17,12 @@ const SLIVER: f64 = 2.5 * FLATNESS;
 /// tangent arc it is the flattening that decides which boundary an edge is on.
 const SHORTEST_CONTACT: f64 = 2e-2;
 
+/// A turn above this (radians) is a corner: where arcs meet smoothly offsets know their tangents to 1e-6.
+const TIP: f64 = 1e-4;
+
+/// A corner farther from the part than this over the radius does not rest on it.
+const OFF_PART: f64 = 1e-6;
+
 /// A connected piece of the difference.
 pub(super) struct Piece {
     /// Its outline: an outer ring and its holes, as polygons.
@@ -25,6 +31,9 @@ pub(super) struct Piece {
     pub(super) contacts: Vec<Contact>,
     /// Stretches of its outline that are new boundary, each with its points in order.
     pub(super) new_stretches: Vec<Vec<Point>>,
+    /// Whether new boundary has a corner off the part's boundary: two disks that have not rolled from one place to the other
+    /// meet there, in a neck that neither can pass.
+    pub(super) has_tip: bool,
 }
 
 /// A stretch of a piece's outline that was the part's boundary.
@@ -50,9 +59,10 @@ impl Piece {
         self.contacts.iter().flat_map(|c| &c.points).map(|p| index.distance(*p)).fold(0.0, f64::max)
     }
 
-    /// Whether the piece changes the topology: an ordinary fillet is glued to the part along one stretch and has one free side.
+    /// Whether the piece is made across the plane, and not along the curve: an ordinary fillet is glued to the part along one
+    /// stretch and has one free side, on which disks rest on the part wherever they meet.
     pub(super) fn is_topological(&self) -> bool {
-        self.contacts.len() != 1 || self.new_stretches.len() != 1
+        self.contacts.len() != 1 || self.new_stretches.len() != 1 || self.has_tip
     }
 }
 
@@ -85,10 +95,11 @@ pub(super) fn pieces(part: &Region, result: &Region, larger: &Region, smaller: &
     let result_index = flattened_index(result, sagitta);
     let ring_of: Vec<usize> =
         part.rings.iter().enumerate().flat_map(|(k, r)| std::iter::repeat_n(k, r.flatten(sagitta).len())).collect();
+    let tips = tips(result, part, radius);
     let mut found = Vec::new();
     let outlines = shapes.iter().flat_map(|s| without_slivers(s, &part_index, &result_index, radius));
     for outline in outlines {
-        let mut piece = Piece { outline, contacts: Vec::new(), new_stretches: Vec::new() };
+        let mut piece = Piece { outline, contacts: Vec::new(), new_stretches: Vec::new(), has_tip: false };
         for ring in &piece.outline.rings {
             let runs = runs(ring, &part_index, &result_index, &ring_of, radius);
             let is_whole_ring = runs.len() == 1;
@@ -99,7 +110,32 @@ pub(super) fn pieces(part: &Region, result: &Region, larger: &Region, smaller: &
                 }
             }
         }
+        if !tips.is_empty() {
+            let outline = BoundaryIndex::new(&piece.outline);
+            piece.has_tip = tips.iter().any(|p| outline.is_nearer(*p, sagitta));
+        }
         found.push(piece);
+    }
+    found
+}
+
+/// Corners between two arcs of the result, off the part's boundary.
+fn tips(result: &Region, part: &Region, radius: f64) -> Vec<Point> {
+    let part = BoundaryIndex::new(part);
+    let is_tip = |before: &Segment, after: &Segment| {
+        matches!((before.link, after.link), (Link::Arc(_), Link::Arc(_)))
+            && turn_angle(before.end_tangent(), after.start_tangent()).abs() > TIP
+            && !part.is_nearer(after.start, OFF_PART * radius)
+    };
+    let mut found = vec![];
+    for ring in &result.rings {
+        let Some(mut before) = ring.segments().last() else { continue };
+        for after in ring.segments() {
+            if is_tip(&before, &after) {
+                found.push(after.start);
+            }
+            before = after;
+        }
     }
     found
 }
