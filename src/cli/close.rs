@@ -1,5 +1,6 @@
 //! `clopen close` and `clopen open`: exact 2D morphology, SVG to SVG.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, bail};
@@ -200,9 +201,14 @@ impl Report {
 /// Places at least `apart` from each other that stand for all of them.
 fn spread(places: &[Point], apart: f64) -> Vec<Point> {
     let mut kept: Vec<Point> = vec![];
+    // Those that are kept, by squares of that side: only the nine about a place can hold one that is near it.
+    let mut squares: HashMap<(i64, i64), Vec<Point>> = HashMap::new();
     for p in places {
-        if kept.iter().all(|q| (p - q).norm() >= apart) {
+        let (x, y) = ((p.x / apart).floor() as i64, (p.y / apart).floor() as i64);
+        let about = (-1..=1).flat_map(|i| (-1..=1).map(move |j| (x.saturating_add(i), y.saturating_add(j))));
+        if about.filter_map(|square| squares.get(&square)).flatten().all(|q| (p - q).norm() >= apart) {
             kept.push(*p);
+            squares.entry((x, y)).or_default().push(*p);
         }
     }
     kept

@@ -3,6 +3,8 @@
 //! Neighbours along a chain are neighbours in the plane, so the order needs no sorting: building is one pass, and the
 //! boxes are nearly as tight as those of a sorted hierarchy.
 
+use std::ops::Range;
+
 use super::{Bounds, Point};
 
 /// How many consecutive elements share a leaf: a balance of boxes kept against elements tested, by measurement.
@@ -79,6 +81,29 @@ impl ChainTree {
                     (waiting[count].0 as usize, waiting[count].1 as usize)
                 }
             };
+        }
+    }
+
+    /// Calls `visit` with every element of every leaf that is entered: a box is where the boxes about it are and `enter`
+    /// is true of it and of the elements in it.
+    pub fn visit_entered(&self, enter: impl Fn(&Bounds, Range<usize>) -> bool, mut visit: impl FnMut(usize)) {
+        let mut stack = Vec::with_capacity(self.levels.len());
+        if self.len > 0 {
+            stack.push((self.levels.len() - 1, 0));
+        }
+        while let Some((level, index)) = stack.pop() {
+            let elements = (index * LEAF) << level..(((index + 1) * LEAF) << level).min(self.len);
+            if !enter(&self.levels[level][index], elements.clone()) {
+                continue;
+            }
+            if level == 0 {
+                elements.for_each(&mut visit);
+                continue;
+            }
+            if 2 * index + 1 < self.levels[level - 1].len() {
+                stack.push((level - 1, 2 * index + 1));
+            }
+            stack.push((level - 1, 2 * index));
         }
     }
 

@@ -54,6 +54,20 @@ impl Region {
         self.rings.iter().fold(Bounds::EMPTY, |b, r| b.union(r.bounds()))
     }
 
+    /// The indices of the rings along a curve that fills the plane (Morton's), by the places where they start.
+    ///
+    /// In the order in which many small rings happen to come, the boxes of a tree over all of them would overlap.
+    pub fn order_of_place(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.rings.len()).collect();
+        // Two are near each other in any order.
+        if order.len() > 2 {
+            let start = |ring: &Ring| ring.vertices.first().map(|v| v.point);
+            let bounds = Bounds::of_points(self.rings.iter().filter_map(start));
+            order.sort_by_cached_key(|&k| start(&self.rings[k]).map(|p| place_along_curve(p, &bounds)));
+        }
+        order
+    }
+
     /// The region with solid and empty exchanged: every ring reversed.
     pub fn reversed(&self) -> Region {
         Region { rings: self.rings.iter().map(Ring::reversed).collect() }
@@ -79,4 +93,14 @@ impl Region {
         let components = self.rings.iter().filter(|r| r.area() > 0.0).count();
         TopologyCount { components, holes: self.rings.len() - components }
     }
+}
+
+/// The number of the cell of `p` when `bounds` are quartered sixteen times.
+fn place_along_curve(p: Point, bounds: &Bounds) -> u32 {
+    const CELLS: f64 = 65_536.0;
+    // The cast saturates, and takes what is no number, as in a box without extent, for zero.
+    let cell = |x: f64, min: f64, max: f64| ((x - min) / (max - min) * CELLS) as u16;
+    let (x, y) = (cell(p.x, bounds.min.x, bounds.max.x), cell(p.y, bounds.min.y, bounds.max.y));
+    let bit_of = |cell: u16, bit: u32| u32::from(cell >> bit & 1);
+    (0..16).fold(0, |key, bit| key | bit_of(x, bit) << (2 * bit) | bit_of(y, bit) << (2 * bit + 1))
 }

@@ -101,7 +101,7 @@ impl Piece {
     }
 }
 
-/// All pieces; those of one ring stand together, in order.
+/// All pieces; those of one ring stand together, in order, and near those of rings that start near it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Locus {
     pub(super) pieces: Vec<Piece>,
@@ -113,11 +113,12 @@ impl Locus {
     /// The locus of a disk of radius `r` on the right side of all rings of `region`; lengths below `tiny` mean nothing. At a
     /// tiny negative radius it is the boundary itself, drawn back a little.
     pub(super) fn new(region: &Region, r: f64, tiny: f64) -> Locus {
-        let mut locus = Locus { pieces: Vec::with_capacity(2 * region.vertex_count()), rings: Vec::new() };
-        for (index, ring) in region.rings.iter().enumerate() {
+        let rings = vec![0..0; region.rings.len()];
+        let mut locus = Locus { pieces: Vec::with_capacity(2 * region.vertex_count()), rings };
+        for index in region.order_of_place() {
             // The golden ratio keeps all rings apart.
             let place = (index as f64 * 0.618_033_988_749_895).fract();
-            locus.add_ring(ring, index as u32, r * (1.0 - RING_SPREAD * place), tiny);
+            locus.add_ring(&region.rings[index], index as u32, r * (1.0 - RING_SPREAD * place), tiny);
         }
         locus
     }
@@ -147,7 +148,7 @@ impl Locus {
             let (tail, head) = (self.pieces[last], self.pieces[first]);
             self.pieces[first].joint = turn_angle(tail.tangent(tail.end), head.tangent(head.start)).abs();
         }
-        self.rings.push(first as u32..self.pieces.len() as u32);
+        self.rings[index as usize] = first as u32..self.pieces.len() as u32;
     }
 
     /// Where the centre of a disk of radius `r` runs that touches what `piece` touches, at exactly `r`.
