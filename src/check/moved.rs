@@ -142,7 +142,9 @@ fn tips(result: &Region, part: &Region, radius: f64) -> Vec<Point> {
 
 fn flattened_index(region: &Region, sagitta: f64) -> BoundaryIndex {
     let polygon = |ring: &Ring| Ring::polygon(ring.flatten(sagitta));
-    BoundaryIndex::new(&Region::new(region.rings.iter().map(polygon).collect()))
+    let rings: Vec<Ring> = region.rings.iter().map(polygon).collect();
+    // In the order of the rings: the numbers of elements are asked for.
+    BoundaryIndex::of_segments(rings.iter().flat_map(Ring::segments).collect())
 }
 
 /// The pieces that remain of an outline without its slivers.

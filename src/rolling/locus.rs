@@ -128,14 +128,14 @@ impl Locus {
         let n = ring.len();
         if n >= 2 {
             let mut path = Path { pieces: &mut self.pieces, ring: index, tiny, last: None, rough: false };
-            let mut link = ring.segment(0);
-            let mut passage = Passage::new(&ring.segment(n - 1), &link, ring.vertices[0].joint, r);
+            let mut link = Directed::new(ring.segment(0));
+            let mut passage = Passage::new(&Directed::new(ring.segment(n - 1)), &link, ring.vertices[0].joint, r);
             for i in 0..n {
-                path.vertex(&passage, link.start, i as u32, r);
+                path.vertex(&passage, link.segment.start, i as u32, r);
                 let j = if i + 1 == n { 0 } else { i + 1 };
-                let next = ring.segment(j);
+                let next = Directed::new(ring.segment(j));
                 passage = Passage::new(&link, &next, ring.vertices[j].joint, r);
-                path.link(&link, passage.arrive, i as u32, r);
+                path.link(&link.segment, passage.arrive, i as u32, r);
                 link = next;
             }
         }
@@ -162,6 +162,22 @@ impl Locus {
     }
 }
 
+/// A link with its directions: both are asked for at both of its ends, and cost a root each.
+struct Directed {
+    segment: Segment,
+    at_start: Vector,
+    at_end: Vector,
+}
+
+impl Directed {
+    #[inline]
+    fn new(segment: Segment) -> Directed {
+        let at_start = segment.start_tangent();
+        let at_end = if segment.link == Link::Line { at_start } else { segment.end_tangent() };
+        Directed { segment, at_start, at_end }
+    }
+}
+
 /// How the centre passes a vertex.
 struct Passage {
     /// Where it arrives from the incoming link.
@@ -173,9 +189,11 @@ struct Passage {
 }
 
 impl Passage {
-    fn new(incoming: &Segment, outgoing: &Segment, joint: Joint, r: f64) -> Passage {
+    #[inline]
+    fn new(incoming: &Directed, outgoing: &Directed, joint: Joint, r: f64) -> Passage {
+        let (u, v) = (incoming.at_end, outgoing.at_start);
+        let (incoming, outgoing) = (&incoming.segment, &outgoing.segment);
         let p = outgoing.start;
-        let (u, v) = (incoming.end_tangent(), outgoing.start_tangent());
         let mut turn = if u == v { 0.0 } else { turn_angle(u, v) };
         if turn < -PI + TIP {
             turn += TAU;

@@ -272,14 +272,18 @@ impl<'a> Roller<'a> {
         }
     }
 
-    fn segment(&self, a: u32) -> Segment {
+    fn link(&self, a: u32) -> Link {
         let node = self.node(a);
-        let link = match node.link {
+        match node.link {
             LinkKind::Line => Link::Line,
             LinkKind::Input(i) => self.input.vertices[i as usize].link,
             LinkKind::Rolling(center) => self.rolling_link(node.point, self.node(node.next).point, center),
-        };
-        Segment { start: node.point, end: self.node(node.next).point, link }
+        }
+    }
+
+    fn segment(&self, a: u32) -> Segment {
+        let node = self.node(a);
+        Segment { start: node.point, end: self.node(node.next).point, link: self.link(a) }
     }
 
     /// The minor arc about `center`, or a line where the ends are so near to each other that rounding has exchanged them.
@@ -478,7 +482,7 @@ impl<'a> Roller<'a> {
                 let original = node.source.map(|s| &self.input.vertices[s as usize]);
                 vertices.push(Vertex {
                     point: node.point,
-                    link: self.segment(i).link,
+                    link: self.link(i),
                     joint: original.map_or(Joint::Corner, |v| v.joint),
                     id: original.and_then(|v| v.id),
                 });
