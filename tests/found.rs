@@ -1308,3 +1308,30 @@ fn a_smooth_outline_sampled_a_hundred_thousand_times() {
     assert!(violation <= 1e-9 * r.get(), "{violation} at {place}");
     assert!(outcome.region.vertex_count() > SAMPLES / 3);
 }
+
+/// A circle in a circle that it touches from inside: as one ring, which turns straight back at the tip of each horn, its locus
+/// runs along itself, and the closing came out empty.
+#[test]
+fn a_crescent_whose_horns_touch() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![
+            arc(0.0, 50.0, 50.0, 50.0, 50.0, Turn::Left),
+            arc(100.0, 50.0, 50.0, 50.0, 50.0, Turn::Left),
+            arc(0.0, 50.0, 25.0, 50.0, 25.0, Turn::Right),
+            arc(50.0, 50.0, 25.0, 50.0, 25.0, Turn::Right),
+        ],
+    }]);
+    for r in [0.5, 2.0, 10.0] {
+        let closed = rolling::close(&input, laws::radius(r), Topology::Merge);
+        assert_eq!(closed.contradictions, 0, "r = {r}");
+        assert!((closed.region.area() / input.area() - 1.0).abs() < 1e-12, "r = {r}: the disk fits everywhere");
+        let opened = rolling::open(&input, laws::radius(r), Topology::Merge);
+        assert_eq!(opened.contradictions, 0, "r = {r}");
+        // The disk touches both circles where its centre is 50 - r from one centre and 25 + r from the other: at x = 3 r.
+        let leftmost = opened.region.bounds().min.x;
+        assert!((leftmost - 2.0 * r).abs() < 1e-9 * r, "r = {r}: the horns end at {leftmost}");
+        assert_eq!(opened.region.topology().components, 1);
+    }
+    let filled = rolling::close(&input, laws::radius(30.0), Topology::Merge);
+    assert_eq!((filled.contradictions, filled.region.topology().holes), (0, 0), "the disk does not fit into the hole");
+}

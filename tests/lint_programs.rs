@@ -148,3 +148,12 @@ fn the_top_of_the_stock_is_a_physical_length() {
     // Below everything, nothing is cut.
     assert_eq!(status("-1000mm"), Some(0));
 }
+
+/// A line can be as long as its file: what is found on it must not grow with it, nor lose what makes it unreadable.
+#[test]
+fn one_line_has_few_findings_of_a_kind() {
+    let text = format!("G1{}", " G64 Q1 X1".repeat(10_000)) + " X#1\nM2\n";
+    let findings = lint(&text, &LintOptions { controller: Controller::Both, stock_top: 0.0 });
+    assert!(findings.len() < 100, "{} findings", findings.len());
+    assert_eq!(read(&text).unwrap_err().0.line, 1);
+}

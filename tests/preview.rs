@@ -123,3 +123,24 @@ fn bracket_column() -> Region {
     let p = Point::new;
     Region::new(vec![Ring::polygon([p(0.0, 0.0), p(4.0, 0.0), p(4.0, 50.0), p(0.0, 50.0)])])
 }
+
+/// Circles on circles, each as large as the picture: their strokes are drawn a part at a time, and the last is there too.
+#[test]
+fn strokes_of_very_many_points() {
+    const CIRCLES: usize = 2_500;
+    let circles = "G2 X0 Y0 I5 J0\n".repeat(CIRCLES);
+    let many = read(&format!("G21 G90 G17 G94 F100\nM3 S1\nG0 Z1\nG1 Z-1\n{circles}G1 X-20\n")).unwrap();
+    let mut few = many.clone();
+    few.motions.drain(2..1 + CIRCLES);
+    assert_eq!(few.motions.len(), 4, "{:?}", few.motions);
+    // Left of the circles there is nothing but the last line.
+    let left_half = |program: &Program| {
+        let png = preview::program(&Scene { tool_radius: Some(0.5), ..Scene::new(program) }, 900).unwrap();
+        let picture = tiny_skia::Pixmap::decode_png(&png).unwrap();
+        let (w, h) = (picture.width() / 2, picture.height());
+        (0..w).flat_map(|x| (0..h).map(move |y| (x, y))).map(|(x, y)| pixel(&picture, x, y)).collect::<Vec<_>>()
+    };
+    let drawn = left_half(&many);
+    assert!(drawn.iter().filter(|p| **p != [255, 255, 255]).count() > 5_000);
+    assert_eq!(drawn, left_half(&few));
+}

@@ -213,3 +213,22 @@ fn spread(places: &[Point], apart: f64) -> Vec<Point> {
     }
     kept
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_that_are_kept_stand_for_all() {
+        let places: Vec<Point> =
+            (0..5_000).map(|k| f64::from(k) * 2.399_963).map(|a| Point::new(a.cos(), a.sin()) * a.sqrt()).collect();
+        let kept = spread(&places, 7.0);
+        assert!(kept.len() > 50);
+        for (i, p) in kept.iter().enumerate() {
+            assert!(kept[..i].iter().all(|q| (p - q).norm() >= 7.0));
+        }
+        for p in &places {
+            assert!(kept.iter().any(|q| (p - q).norm() < 7.0), "{p}");
+        }
+    }
+}

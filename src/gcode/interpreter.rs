@@ -6,7 +6,7 @@
 
 mod words;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Finding;
 use super::arc_words::{ArcForm, solve_arc};
@@ -29,6 +29,9 @@ const ASSUMED_HOME: f64 = 25.0;
 
 /// Chord error of arcs outside of the XY plane, which are read as lines, in millimetres; far below what machines show.
 const OTHER_PLANE_TOLERANCE: f64 = 1e-4;
+
+/// A rule is reported so often on one line: more says nothing new, and a line can be as long as its file.
+const MOST_ALIKE: usize = 8;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum MotionMode {
@@ -67,6 +70,8 @@ struct Interpreter {
     z_is_known: bool,
     highest: f64,
     said: BTreeSet<Rule>,
+    /// How often each rule was broken on the line with this number.
+    found: (usize, BTreeMap<Rule, usize>),
 }
 
 /// Runs `text`, a whole program.
@@ -86,7 +91,14 @@ pub(super) fn interpret(text: &str) -> Interpretation {
 
 impl Interpreter {
     fn find(&mut self, rule: Rule, detail: impl Into<String>) {
-        self.out.findings.push(Finding::new(self.line, rule, detail));
+        if self.found.0 != self.line {
+            self.found = (self.line, BTreeMap::new());
+        }
+        let count = self.found.1.entry(rule).or_insert(0);
+        *count += 1;
+        if *count <= MOST_ALIKE {
+            self.out.findings.push(Finding::new(self.line, rule, detail));
+        }
     }
 
     /// For findings that would repeat on every line.

@@ -54,18 +54,24 @@ impl View {
         builder.finish()
     }
 
-    /// Elements as lines, joined where they follow each other, in pixels.
-    pub(super) fn elements(&self, elements: impl IntoIterator<Item = Segment>) -> Option<Path> {
+    /// Elements as lines, joined where they follow each other, in pixels; in paths of not much more than [`MOST_POINTS`].
+    pub(super) fn elements(&self, elements: impl IntoIterator<Item = Segment>) -> Vec<Path> {
+        let mut paths = Vec::new();
         let mut builder = PathBuilder::new();
         let mut end: Option<Point> = None;
         for element in elements {
+            if builder.len() > MOST_POINTS {
+                paths.extend(std::mem::replace(&mut builder, PathBuilder::new()).finish());
+                end = None;
+            }
             if end != Some(element.start) {
                 move_to(&mut builder, self.pixel(element.start));
             }
             self.trace(&element, |p| line_to(&mut builder, p));
             end = Some(element.end);
         }
-        builder.finish()
+        paths.extend(builder.finish());
+        paths
     }
 
     /// Closed polygons, in pixels.
@@ -81,6 +87,9 @@ impl View {
         builder.finish()
     }
 }
+
+/// Lines are stroked in paths of about so many points: the outline of a stroke takes hundreds of bytes for each.
+const MOST_POINTS: usize = 1 << 18;
 
 /// Far outside of any picture: keeps `f32` from overflowing.
 const FAR: f64 = 1e6;
@@ -122,19 +131,24 @@ impl Canvas {
         }
     }
 
-    pub(super) fn stroke(&mut self, path: Option<&Path>, color: Rgba, width: f64, mask: Option<&Mask>) {
-        self.stroke_dashed(path, color, width, None, mask);
+    pub(super) fn stroke<'a>(
+        &mut self,
+        paths: impl IntoIterator<Item = &'a Path>,
+        color: Rgba,
+        width: f64,
+        mask: Option<&Mask>,
+    ) {
+        self.stroke_dashed(paths, color, width, None, mask);
     }
 
-    pub(super) fn stroke_dashed(
+    pub(super) fn stroke_dashed<'a>(
         &mut self,
-        path: Option<&Path>,
+        paths: impl IntoIterator<Item = &'a Path>,
         color: Rgba,
         width: f64,
         dash: Option<[f64; 2]>,
         mask: Option<&Mask>,
     ) {
-        let Some(path) = path else { return };
         let stroke = Stroke {
             width: width as f32,
             line_cap: if dash.is_some() { LineCap::Butt } else { LineCap::Round },
@@ -142,8 +156,10 @@ impl Canvas {
             dash: dash.and_then(|d| StrokeDash::new(d.map(|x| x as f32).to_vec(), 0.0)),
             ..Stroke::default()
         };
-        let paint = Paint { anti_alias: !is_dense(path), ..paint(color) };
-        self.pixmap.stroke_path(path, &paint, &stroke, Transform::identity(), mask);
+        for path in paths {
+            let paint = Paint { anti_alias: !is_dense(path), ..paint(color) };
+            self.pixmap.stroke_path(path, &paint, &stroke, Transform::identity(), mask);
+        }
     }
 
     /// Limits drawing to the inside of `path`.

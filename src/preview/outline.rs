@@ -46,8 +46,8 @@ pub fn outline(region: &Region, before: Option<&Region>, unit_name: &str, size: 
         }
     }
     let (kept, moved) = split_moved(region, before, SAME_BOUNDARY * bounds.diagonal());
-    sheet.canvas.stroke(view.elements(kept).as_ref(), palette::KEPT, weight, None);
-    sheet.canvas.stroke(view.elements(moved).as_ref(), palette::MOVED, 1.4 * weight, None);
+    sheet.canvas.stroke(&view.elements(kept), palette::KEPT, weight, None);
+    sheet.canvas.stroke(&view.elements(moved), palette::MOVED, 1.4 * weight, None);
     sheet.finish(unit_name)
 }
 

@@ -61,7 +61,7 @@ pub fn program(scene: &Scene, size: u32) -> Result<Vec<u8>, PreviewError> {
     }
     if let Some(radius) = scene.tool_radius {
         let swept = view.elements(in_stock().flat_map(Motion::trace));
-        sheet.canvas.stroke(swept.as_ref(), palette::SWATH, 2.0 * radius * view.scale, None);
+        sheet.canvas.stroke(&swept, palette::SWATH, 2.0 * radius * view.scale, None);
         for motion in in_stock().filter(|m| m.trace().next().is_none()) {
             sheet.canvas.disk(view.pixel(motion.to.xy()), radius * view.scale, palette::SWATH);
         }
@@ -70,14 +70,14 @@ pub fn program(scene: &Scene, size: u32) -> Result<Vec<u8>, PreviewError> {
     if let Some(part) = scene.part {
         let (on, off) = split_moved(part, scene.kept, SAME_BOUNDARY);
         let moved = scene.kept.map(|kept| split_moved(kept, scene.part, SAME_BOUNDARY).1);
-        sheet.canvas.stroke(view.elements(off).as_ref(), palette::KEPT, 0.8 * unit, None);
-        sheet.canvas.stroke(view.elements(on).as_ref(), palette::KEPT, 1.5 * unit, None);
-        sheet.canvas.stroke(view.elements(moved.unwrap_or_default()).as_ref(), palette::MOVED, 2.0 * unit, None);
+        sheet.canvas.stroke(&view.elements(off), palette::KEPT, 0.8 * unit, None);
+        sheet.canvas.stroke(&view.elements(on), palette::KEPT, 1.5 * unit, None);
+        sheet.canvas.stroke(&view.elements(moved.unwrap_or_default()), palette::MOVED, 2.0 * unit, None);
     }
     draw_path(scene, depth, &mut sheet);
     let rapids = scene.program.motions.iter().filter(|m| m.is_rapid()).flat_map(Motion::trace);
     let dash = Some([4.0 * unit, 3.0 * unit]);
-    sheet.canvas.stroke_dashed(view.elements(rapids).as_ref(), palette::RAPID, 0.8 * unit, dash, None);
+    sheet.canvas.stroke_dashed(&view.elements(rapids), palette::RAPID, 0.8 * unit, dash, None);
     for motion in in_stock().filter(|m| m.from.z >= scene.stock_top) {
         let at = view.pixel(motion.from.xy());
         sheet.canvas.disk(at, 4.2 * unit, palette::WHITE);
@@ -198,6 +198,6 @@ fn draw_path(scene: &Scene, depth: f64, sheet: &mut Sheet) {
         rank += 1;
         let width = thin * (1.4 + (WIDEST_LINE - 1.4) * (used - rank) as f64 / used as f64);
         let color = palette::depth(k as f64 / DEPTH_STEPS as f64);
-        sheet.canvas.stroke(view.elements(elements).as_ref(), color, width * unit, None);
+        sheet.canvas.stroke(&view.elements(elements), color, width * unit, None);
     }
 }

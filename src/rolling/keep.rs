@@ -55,8 +55,8 @@ impl<'a> Kept<'a> {
         loop {
             let owner: Vec<usize> =
                 self.parts.iter().enumerate().flat_map(|(k, part)| part.rings.iter().map(move |_| k)).collect();
-            let mut group: Vec<usize> = (0..self.parts.len()).collect();
-            let mut affected = vec![false; group.len()];
+            let mut groups = Groups::new(self.parts.len());
+            let mut affected = vec![false; self.parts.len()];
             for (i, j) in merge::meetings(&self.region(), self.r, self.resolution) {
                 let (a, b) = (owner[i], owner[j]);
                 // What was closed in the plane and seems to cross itself does so by rounding.
@@ -65,25 +65,24 @@ impl<'a> Kept<'a> {
                 }
                 affected[a] = true;
                 affected[b] = true;
-                let (from, to) = (group[a].max(group[b]), group[a].min(group[b]));
-                group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
+                groups.join(a, b);
             }
+            // Every round leaves fewer parts, or fewer that are not final: this ends.
             if !affected.contains(&true) {
                 return;
             }
-            let mut parts = std::mem::take(&mut self.parts);
-            for first in 0..parts.len() {
-                if group[first] != first {
-                    continue;
+            let parts = std::mem::take(&mut self.parts);
+            let mut together: Vec<Vec<usize>> = vec![vec![]; parts.len()];
+            for (k, part) in parts.iter().enumerate() {
+                together[groups.first(k)].extend(&part.of);
+            }
+            for (k, part) in parts.into_iter().enumerate() {
+                if !affected[k] {
+                    self.parts.push(part);
+                } else if groups.first(k) == k {
+                    let part = self.closed(std::mem::take(&mut together[k]));
+                    self.parts.push(part);
                 }
-                let part = if affected[first] {
-                    let of = (first..parts.len()).filter(|&k| group[k] == first).flat_map(|k| parts[k].of.clone());
-                    self.closed(of.collect())
-                } else {
-                    let Part { of, rings, merged } = &mut parts[first];
-                    Part { of: std::mem::take(of), rings: std::mem::take(rings), merged: *merged }
-                };
-                self.parts.push(part);
             }
         }
     }
@@ -95,5 +94,46 @@ impl<'a> Kept<'a> {
         let outcome = close_merged(&Region::new(rings), self.r, self.resolution);
         self.contradictions += outcome.contradictions;
         Part { of, rings: outcome.region.rings, merged: true }
+    }
+}
+
+/// Which parts belong together.
+struct Groups {
+    /// Of every part one of its group that does not come after it; the first of a group is its own.
+    before: Vec<usize>,
+}
+
+impl Groups {
+    fn new(count: usize) -> Groups {
+        Groups { before: (0..count).collect() }
+    }
+
+    /// The first of the group of `k`.
+    fn first(&mut self, mut k: usize) -> usize {
+        while self.before[k] != k {
+            self.before[k] = self.before[self.before[k]];
+            k = self.before[k];
+        }
+        k
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.first(a), self.first(b));
+        self.before[a.max(b)] = a.min(b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_grow_together_under_their_first_part() {
+        let mut groups = Groups::new(7);
+        for (a, b) in [(5, 4), (3, 4), (1, 6), (6, 6), (6, 3)] {
+            groups.join(a, b);
+        }
+        let firsts: Vec<usize> = (0..7).map(|k| groups.first(k)).collect();
+        assert_eq!(firsts, [0, 1, 2, 1, 1, 1, 1]);
     }
 }

@@ -11,6 +11,7 @@
 mod carrier;
 mod crossings;
 mod excess;
+mod horns;
 mod keep;
 mod locus;
 mod loops;
@@ -94,6 +95,8 @@ pub fn open(region: &Region, radius: Radius, topology: Topology) -> Outcome {
 }
 
 fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
+    let apart = horns::taken_apart(region);
+    let region = apart.as_ref().unwrap_or(region);
     // What an unfinished scan leaves undone the merge does.
     let mut prepared = Scanned::default();
     for ring in &region.rings {

@@ -14,11 +14,15 @@ pub struct Place {
     pub line: usize,
 }
 
+/// Messages quote no more characters of an id than this.
+const LONGEST_ID: usize = 40;
+
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "<{}", self.element)?;
         if let Some(id) = &self.id {
-            write!(f, " id=\"{id}\"")?;
+            let rest = if id.chars().nth(LONGEST_ID).is_some() { "..." } else { "" };
+            write!(f, " id=\"{}{rest}\"", id.chars().take(LONGEST_ID).collect::<String>())?;
         }
         write!(f, "> on line {}", self.line)
     }
@@ -35,7 +39,7 @@ pub enum ReadError {
     Empty,
     /// Compressed, or not text at all.
     #[error(
-        "the file is not text (byte {offset} is no UTF-8): save the drawing as plain SVG, not as SVGZ or a picture"
+        "the file is not text (byte {offset} is no UTF-8): save the drawing as plain SVG in UTF-8, not as SVGZ or a picture"
     )]
     NotText {
         /// Where the text ends, in bytes.
@@ -70,7 +74,10 @@ pub enum ReadError {
         line: usize,
     },
     /// Too many or too deeply nested elements.
-    #[error("the drawing has more elements, or deeper nested ones, than can be read: simplify it")]
+    #[error(
+        "the drawing has more elements, or deeper nested ones, than can be read: simplify it, and look for <use> elements \
+         that show each other"
+    )]
     TooLarge,
     /// A coordinate beyond [`MAX_COORDINATE`].
     #[error("{place} has the coordinate {value:e}, beyond 1e9 user units: repair or remove the element")]

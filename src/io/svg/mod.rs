@@ -125,7 +125,10 @@ fn check_options(options: &ReadOptions) -> Result<(), ReadError> {
 fn refusal(error: usvg::Error, line: usize) -> ReadError {
     match error {
         usvg::Error::InvalidSize => ReadError::InvalidSize { line },
-        usvg::Error::ElementsLimitReached => ReadError::TooLarge,
+        // What refers to each other grows beyond every limit.
+        usvg::Error::ElementsLimitReached | usvg::Error::ParsingFailed(usvg::roxmltree::Error::NodesLimitReached) => {
+            ReadError::TooLarge
+        }
         other => ReadError::NotSvg { found: other.to_string() },
     }
 }
