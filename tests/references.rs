@@ -63,9 +63,6 @@ const FAULTY: [Faulty; 8] = [
 
 const COARSE: &str = "certified to 1e-6 r only";
 
-/// Results that keep the topology and say of themselves that they do not stand: input pokes out of them.
-const NOT_STANDING: [&str; 1] = ["icon_si_gutenberg.r2.open"];
-
 /// What the laws say of one reference.
 #[derive(Default)]
 struct Findings {
@@ -231,9 +228,7 @@ fn contains_and_keeps(entry: &Entry, input: &Region, mode: &str, outcome: &Outco
     let (violation, place) = laws::containment(input, &outcome.region, operation, r);
     if violation > CONTAINMENT * r {
         let violation = violation / r;
-        let said = mode == "keep" && outcome.contradictions > 0 && NOT_STANDING.contains(&&*entry.key);
-        let list = if said { &mut found.notes } else { &mut found.failures };
-        list.push(format!(
+        found.failures.push(format!(
             "{mode}: containment fails by {violation:.1e} r at {place}; contradictions it tells: {}",
             outcome.contradictions
         ));
