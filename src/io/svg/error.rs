@@ -107,12 +107,12 @@ pub enum ReadError {
         warnings: Vec<Warning>,
     },
     /// A font file cannot be read.
-    #[error("the font {} cannot be read: {source}", path.display())]
+    #[error("the font {} cannot be read: {reason}", path.display())]
     Font {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// An option has no meaning.
     #[error("{name} is {value}: it must be a finite number above zero")]

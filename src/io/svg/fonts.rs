@@ -37,8 +37,8 @@ pub(super) fn tree(
     #[cfg(not(feature = "text"))]
     {
         if let Some(path) = options.fonts.first() {
-            let source = std::io::Error::new(std::io::ErrorKind::Unsupported, "this build sets no text");
-            return Err(ReadError::Font { path: path.clone(), source });
+            let reason = std::io::Error::new(std::io::ErrorKind::Unsupported, "this build sets no text");
+            return Err(ReadError::Font { path: path.clone(), reason });
         }
         Ok((usvg::Tree::from_xmltree(document, &parsing), Vec::new()))
     }
@@ -86,12 +86,12 @@ mod with_text {
     pub fn named(options: &ReadOptions) -> Result<Database, ReadError> {
         let mut fonts = Database::new();
         for path in &options.fonts {
-            let failed = |source| ReadError::Font { path: path.clone(), source };
+            let failed = |reason| ReadError::Font { path: path.clone(), reason };
             let before = fonts.len();
             fonts.load_font_data(std::fs::read(path).map_err(failed)?);
             if fonts.len() == before {
-                let reason = "it is no TrueType or OpenType font";
-                return Err(failed(std::io::Error::new(std::io::ErrorKind::InvalidData, reason)));
+                let kind = std::io::ErrorKind::InvalidData;
+                return Err(failed(std::io::Error::new(kind, "it is no TrueType or OpenType font")));
             }
         }
         Ok(fonts)
