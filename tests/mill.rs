@@ -233,6 +233,11 @@ fn bad_input_gets_one_sentence_and_leaves_nothing() {
     refuse(&["plate.svg", "--tool-diameter", "inf"], &["--tool-diameter"]);
     refuse(&["plate.svg", "--depth", "0"], &["depth"]);
     refuse(&["plate.svg", "--safe-height", "-1"], &["safe-height", "stock-top"]);
+    refuse(&["plate.svg", "--spindle-speed", "-1"], &["spindle-speed", "above zero"]);
+    refuse(&["plate.svg", "--dwell", "-1"], &["dwell"]);
+    refuse(&["plate.svg", "--dpi", "-5"], &["--dpi", "above zero"]);
+    refuse(&["plate.svg", "--width", "1e12"], &["plate.svg", "scale"]);
+    refuse(&["plate.svg", "--width", "1e-9"], &["plate.svg", "e-9 mm across", "scale"]);
     refuse(&["plate.svg", "--dialect", "fanuc"], &["fanuc", "grbl", "linuxcnc"]);
     refuse(&["plate.svg", "--job", "job.toml"], &["job.toml", "tool-diamter"]);
     refuse(&["plate.svg", "--tool-diameter", "500mm"], &["plate.svg", "larger than the whole part", "scale"]);

@@ -38,7 +38,7 @@ pub struct CheckArgs {
     #[arg(long, value_enum, default_value_t = TopologyArg::Merge)]
     topology: TopologyArg,
     /// Largest accepted distance to the reference, and depth of a violated containment, in radii
-    #[arg(long, value_name = "RADII", default_value_t = DEFAULT_TOLERANCE)]
+    #[arg(long, value_name = "RADII", default_value_t = DEFAULT_TOLERANCE, allow_hyphen_values = true)]
     pub tolerance: f64,
     /// How to print the report
     #[arg(long, value_enum, default_value = "text")]

@@ -61,10 +61,10 @@ pub(super) fn millimetres(length: Length, option: &str) -> Result<f64> {
 #[command(next_help_heading = "Reading")]
 pub(super) struct ReadArgs {
     /// User units in an inch, for a drawing that says no physical size (SVG editors: 96, 90 or 72) or a wrong one
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     dpi: Option<f64>,
     /// Scale the drawing so that its filled part is this wide
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     width: Option<Length>,
     /// Take strokes as areas
     #[arg(long)]
@@ -73,7 +73,7 @@ pub(super) struct ReadArgs {
     #[arg(long = "font", value_name = "FILE")]
     fonts: Vec<PathBuf>,
     /// How far chords may stray from curves that are no circles, in parts of the larger side of the largest shape
-    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_FLATTEN)]
+    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_FLATTEN, allow_hyphen_values = true)]
     flatten: f64,
     /// What becomes of circles and arcs
     #[arg(long, value_enum, default_value_t = CurvesArg::Arcs)]

@@ -72,10 +72,10 @@ struct CutArgs {
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     plunge_feed: Option<Speed>,
     /// Spindle speed in revolutions a minute [default: 18000]
-    #[arg(long, value_name = "RPM")]
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true)]
     spindle_speed: Option<f64>,
     /// Seconds to wait for the spindle [default: 3]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     dwell: Option<f64>,
     /// z of travel [default: 5mm above the top of the stock]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
@@ -97,7 +97,7 @@ struct CutArgs {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     path_radius: Option<TypedPathRadius>,
     /// Acceleration of the machine in mm/s² [default: 500]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     acceleration: Option<f64>,
     /// ramp or plunge [default: ramp]
     #[arg(long, value_name = "WAY")]
@@ -283,15 +283,24 @@ fn read_settings(args: &MillArgs, drawing: &Drawing) -> Result<Settings> {
     })
 }
 
+/// A part larger than this, in millimetres, is a slip of the unit: beyond it micrometres are lost in rounding.
+const LARGEST_PART: f64 = 1e7;
+
 /// Closes what stays by the tool, and plans the way around it.
 fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
     let job = &settings.job;
     let size = part.bounds().diagonal();
+    if size > LARGEST_PART {
+        bail!(
+            "the part is {size:.1e} mm across, more than {LARGEST_PART:.0e}: is its width or the scale of the drawing right?"
+        );
+    }
     if job.tool_diameter > size {
         bail!(
-            "the tool of {} mm is larger than the whole part ({size:.1} mm across): is the unit of --tool-diameter right, \
+            "the tool of {} mm is larger than the whole part ({} mm across): is the unit of --tool-diameter right, \
              and the scale of the drawing?",
-            job.tool_diameter
+            job.tool_diameter,
+            if size < 0.1 { format!("{size:.1e}") } else { format!("{size:.1}") }
         );
     }
     let stays = job.side.kept_material(part);

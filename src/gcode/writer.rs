@@ -58,7 +58,9 @@ pub struct WriteOptions {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum WriteError {
     /// A coordinate is not a number, or larger than any machine.
-    #[error("contour {contour} goes to ({x}, {y}, {z}), which is no place on a machine: is the drawing's scale right?")]
+    #[error(
+        "contour {contour} goes to ({x:.3}, {y:.3}, {z:.3}), which is no place on a machine: is the drawing's scale right?"
+    )]
     Place {
         /// The contour, counted from 1.
         contour: usize,
@@ -70,7 +72,7 @@ pub enum WriteError {
         z: f64,
     },
     /// A feed, spindle speed or dwell that cannot be written.
-    #[error("{what} is {value}, which cannot be written")]
+    #[error("{what} is {value}, which cannot be written with the decimals that controllers read: is the unit right?")]
     Rate {
         /// Which.
         what: &'static str,

@@ -88,8 +88,9 @@ impl View {
     }
 }
 
-/// Lines are stroked in paths of about so many points: the outline of a stroke takes hundreds of bytes for each.
-const MOST_POINTS: usize = 1 << 18;
+/// Lines are stroked in paths of about so many points: the outline of a stroke takes hundreds of bytes for each, and filling
+/// it takes time with the square of the lines that cross a row of pixels.
+const MOST_POINTS: usize = 1 << 12;
 
 /// Far outside of any picture: keeps `f32` from overflowing.
 const FAR: f64 = 1e6;

@@ -90,8 +90,8 @@ mod with_text {
             let before = fonts.len();
             fonts.load_font_data(std::fs::read(path).map_err(failed)?);
             if fonts.len() == before {
-                let reason = "it is no TrueType or OpenType font";
-                return Err(failed(std::io::Error::new(std::io::ErrorKind::InvalidData, reason)));
+                let kind = std::io::ErrorKind::InvalidData;
+                return Err(failed(std::io::Error::new(kind, "it is no TrueType or OpenType font")));
             }
         }
         Ok(fonts)
