@@ -1335,3 +1335,26 @@ fn a_crescent_whose_horns_touch() {
     let filled = rolling::close(&input, laws::radius(30.0), Topology::Merge);
     assert_eq!((filled.contradictions, filled.region.topology().holes), (0, 0), "the disk does not fit into the hole");
 }
+
+/// Straight back between a line and an arc was taken for the tip of a spike on either side of the boundary: an opening that
+/// keeps left the cusp of a part sharp.
+#[test]
+fn a_cusp_of_the_part_is_opened() {
+    let input = Region::new(vec![Ring {
+        vertices: vec![line(0.0, 0.0), line(20.0, 0.0), arc(20.0, 20.0, 0.0, 20.0, 20.0, Turn::Right)],
+    }]);
+    for r in [0.2, 1.0, 3.0] {
+        // The disk rests on the line and touches the arc where its centre is 20 + r from that of the arc: x² + (20 - r)² = (20 + r)².
+        let x = f64::sqrt(80.0 * r);
+        for topology in [Topology::Keep, Topology::Merge] {
+            let opened = rolling::open(&input, laws::radius(r), topology);
+            assert_eq!(opened.contradictions, 0, "{topology:?}, r = {r}");
+            let leftmost = opened.region.bounds().min.x;
+            assert!((leftmost - (x - r)).abs() < 1e-9, "{topology:?}, r = {r}: {leftmost} for {}", x - r);
+            let (violation, place) = laws::containment(&input, &opened.region, Operation::Open, r);
+            assert!(violation <= 1e-9 * r, "{topology:?}, r = {r}: {violation} at {place}");
+        }
+        let closed = rolling::close(&input, laws::radius(r), Topology::Keep);
+        assert_eq!(closed.region, input, "the disk touches it everywhere from outside");
+    }
+}

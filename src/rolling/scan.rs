@@ -17,7 +17,7 @@ mod step;
 use std::collections::VecDeque;
 
 use super::carrier::center_of_chord;
-use super::excess::{WHOLE_TURN, excess, follows_samples};
+use super::excess::{HALF_TURN, WHOLE_TURN, excess, follows_samples};
 use super::merge::{ROUNDING_STEPS, SHRINK};
 use super::track::Track;
 use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex, right_normal};
@@ -260,7 +260,9 @@ impl<'a> Roller<'a> {
             };
             // Sine and cosine times the lengths: most vertices need no angle.
             let (cross, dot) = (u.perp(&v), u.dot(&v));
-            if cross < 0.0 && (dot < 0.0 || -cross > self.min_excess * dot) {
+            if dot < 0.0 && self.is_horn_of_empty(i as u32, u, v) {
+                self.enqueue(i as u32);
+            } else if cross < 0.0 && (dot < 0.0 || -cross > self.min_excess * dot) {
                 let smooth = self.input.vertices[i].joint == Joint::Smooth
                     && follows_samples(u, v, incoming.length(), outgoing.length(), self.r);
                 if !smooth {
@@ -325,6 +327,24 @@ impl<'a> Roller<'a> {
         excess(incoming.end_tangent(), self.input.segment(i).start_tangent())
     }
 
+    /// Whether the input turns straight back at node `b`, and what lies between its two curves there is empty: where it is
+    /// solid, the same directions are those of the tip of a spike. Their curvatures tell, positive to the left.
+    fn is_horn_of_empty(&self, b: u32, arriving: Vector, leaving: Vector) -> bool {
+        let a = self.node(b).prev;
+        let is_straight_back = |sine: f64, cosine: f64| cosine < 0.0 && sine.abs() <= MIN_LINK * -cosine;
+        if self.is_rolling(a)
+            || self.is_rolling(b)
+            || !is_straight_back(arriving.perp(&leaving), arriving.dot(&leaving))
+        {
+            return false;
+        }
+        let curvature = |i: u32| match self.link(i) {
+            Link::Line => 0.0,
+            Link::Arc(arc) => arc.turn.sign() / arc.radius,
+        };
+        curvature(a) + curvature(b) > 0.0
+    }
+
     fn visit(&mut self, b: u32) {
         let a = self.node(b).prev;
         let c = self.node(b).next;
@@ -333,7 +353,9 @@ impl<'a> Roller<'a> {
         if (self.node(b).point - self.node(a).point).norm_squared() <= min_link * min_link {
             return self.absorb(a, b, c);
         }
-        let mut excess = excess(self.tangent(a, false), self.tangent(b, true));
+        let (arriving, leaving) = (self.tangent(a, false), self.tangent(b, true));
+        let mut excess =
+            if self.is_horn_of_empty(b, arriving, leaving) { HALF_TURN } else { excess(arriving, leaving) };
         let before = match (self.node(b).excess, self.node(b).source) {
             (Some(stored), _) => stored,
             (None, Some(i)) => self.original_excess(i),
