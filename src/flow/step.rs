@@ -9,7 +9,7 @@
 //! (eq. 18 of the paper, written for the displacement d): frozen vertices are not touched, so they stay bit for bit, and
 //! the largest |d| tells whether the flow still goes on.
 
-use crate::linalg::{Chain, Entry, Singular, SparseCholesky};
+use crate::linalg::{Chains, Entry, Singular, SparseCholesky};
 
 /// A boundary in space of `D` dimensions, in so far as a step needs to know it.
 pub trait Front<const D: usize> {
@@ -142,13 +142,8 @@ impl Factor for SparseCholesky {
     }
 }
 
-/// Chains one after the other.
-impl Factor for Vec<Chain> {
-    fn solve<const D: usize>(&self, mut x: &mut [[f64; D]]) {
-        for chain in self {
-            let (rows, rest) = x.split_at_mut(chain.len());
-            chain.solve(rows);
-            x = rest;
-        }
+impl Factor for Chains {
+    fn solve<const D: usize>(&self, x: &mut [[f64; D]]) {
+        Chains::solve(self, x);
     }
 }

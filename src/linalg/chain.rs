@@ -7,21 +7,21 @@ use super::Singular;
 pub enum Closure {
     /// The chain has two ends.
     Open,
-    /// The last unknown and the first are coupled by this off-diagonal entry's place: the last of [`Chain::new`]'s.
+    /// The last unknown and the first are coupled too.
     Ring,
 }
 
-/// A factored symmetric positive definite matrix whose unknown `k` is coupled to `k` ± 1.
+/// Factored symmetric positive definite matrices, one after the other, in which unknown `k` is coupled to `k` ± 1.
 ///
 /// Open chains take Thomas' algorithm, rings the same with the Sherman–Morrison correction for the two entries in the
-/// corners (Press et al., Numerical Recipes, 2.7.2). Both are stable without pivots as the matrix is positive definite.
-#[derive(Clone, Debug)]
-pub struct Chain {
-    /// What elimination multiplies the row above by; one fewer than there are unknowns.
+/// corners (Press et al., Numerical Recipes, 2.7.2). Both are stable without pivots as the matrices are positive definite.
+#[derive(Clone, Debug, Default)]
+pub struct Chains {
+    /// What elimination multiplies the row above by to take it off the row below; of the last row of a chain, nothing.
     multipliers: Vec<f64>,
     pivots: Vec<f64>,
-    /// Of a ring the coupling of its ends.
-    corner: Option<Corner>,
+    /// Where each chain ends, and of a ring what the coupling of its ends adds.
+    ends: Vec<(usize, Option<Corner>)>,
 }
 
 /// The matrix of a ring is that of an open chain plus `u uᵀ / gamma`, u = (gamma, 0, …, 0, coupling).
@@ -33,61 +33,48 @@ struct Corner {
     correction: Vec<f64>,
 }
 
-impl Chain {
-    /// Factors the matrix with the diagonal `diagonal`, whose entry (k, k + 1) is `couplings[k]`. A ring has as many
-    /// couplings as unknowns, at least three; an open chain has one fewer.
+impl Chains {
+    /// Appends the matrix whose rows are `(diagonal entry, coupling to the next row)`, and factors it. The last row's
+    /// coupling is that to the first one in a ring, which has three rows at least; in an open chain it means nothing.
     ///
     /// # Errors
     /// Where the matrix is not positive definite.
     ///
     /// # Panics
-    /// Where the numbers of entries do not fit each other.
-    pub fn new(mut diagonal: Vec<f64>, couplings: &[f64], closure: Closure) -> Result<Chain, Singular> {
-        let n = diagonal.len();
-        match closure {
+    /// Where a ring has fewer than three rows.
+    pub fn push(&mut self, rows: impl Iterator<Item = (f64, f64)>, closure: Closure) -> Result<(), Singular> {
+        let start = self.pivots.len();
+        for (diagonal, coupling) in rows {
+            self.pivots.push(diagonal);
+            self.multipliers.push(coupling);
+        }
+        let (pivots, multipliers) = (&mut self.pivots[start..], &mut self.multipliers[start..]);
+        let n = pivots.len();
+        let corner = match closure {
             Closure::Open => {
-                assert_eq!(couplings.len() + 1, n.max(1), "an open chain has one coupling fewer than unknowns");
-                Chain::open(diagonal, couplings)
+                eliminate(pivots, multipliers)?;
+                None
             }
             Closure::Ring => {
-                assert!(n >= 3 && couplings.len() == n, "a ring has a coupling for every unknown, three at least");
-                let coupling = couplings[n - 1];
-                let gamma = -diagonal[0];
-                diagonal[0] -= gamma;
-                diagonal[n - 1] -= coupling * coupling / gamma;
-                let mut chain = Chain::open(diagonal, &couplings[..n - 1])?;
+                assert!(n >= 3, "a ring has three rows at least");
+                let coupling = multipliers[n - 1];
+                let gamma = -pivots[0];
+                pivots[0] -= gamma;
+                pivots[n - 1] -= coupling * coupling / gamma;
+                eliminate(pivots, multipliers)?;
                 let mut u = vec![[0.0]; n];
                 (u[0], u[n - 1]) = ([gamma], [coupling]);
-                chain.solve(&mut u);
+                substitute(pivots, multipliers, &mut u);
                 let ratio = coupling / gamma;
                 let scale = 1.0 + u[0][0] + ratio * u[n - 1][0];
                 if !(scale.is_finite() && scale != 0.0) {
                     return Err(Singular);
                 }
-                chain.corner = Some(Corner { ratio, correction: u.iter().map(|[x]| x / scale).collect() });
-                Ok(chain)
+                Some(Corner { ratio, correction: u.iter().map(|[x]| x / scale).collect() })
             }
-        }
-    }
-
-    fn open(mut diagonal: Vec<f64>, couplings: &[f64]) -> Result<Chain, Singular> {
-        let mut multipliers = Vec::with_capacity(couplings.len());
-        for (k, &coupling) in couplings.iter().enumerate() {
-            let multiplier = coupling / diagonal[k];
-            diagonal[k + 1] -= multiplier * coupling;
-            multipliers.push(multiplier);
-        }
-        if diagonal.iter().all(|pivot| pivot.is_finite() && *pivot > 0.0) {
-            Ok(Chain { multipliers, pivots: diagonal, corner: None })
-        } else {
-            Err(Singular)
-        }
-    }
-
-    /// The number of unknowns.
-    #[allow(clippy::len_without_is_empty, reason = "there is no chain without unknowns")]
-    pub fn len(&self) -> usize {
-        self.pivots.len()
+        };
+        self.ends.push((start + n, corner));
+        Ok(())
     }
 
     /// Solves in place: `x` is the right-hand side, one row for each unknown, and becomes the solution.
@@ -95,33 +82,52 @@ impl Chain {
     /// # Panics
     /// Where there are not as many rows as unknowns.
     pub fn solve<const D: usize>(&self, x: &mut [[f64; D]]) {
-        let n = self.pivots.len();
-        assert_eq!(x.len(), n, "a row for each unknown");
-        for k in 1..n {
-            let multiplier = self.multipliers[k - 1];
-            let above = x[k - 1];
-            for (entry, above) in x[k].iter_mut().zip(above) {
-                *entry -= multiplier * above;
-            }
-        }
-        for k in (0..n).rev() {
-            let pivot = self.pivots[k];
-            x[k].iter_mut().for_each(|entry| *entry /= pivot);
-            if k + 1 < n {
-                let (multiplier, below) = (self.multipliers[k], x[k + 1]);
-                for (entry, below) in x[k].iter_mut().zip(below) {
-                    *entry -= multiplier * below;
+        assert_eq!(x.len(), self.pivots.len(), "a row for each unknown");
+        let mut start = 0;
+        for (end, corner) in &self.ends {
+            let x = &mut x[start..*end];
+            substitute(&self.pivots[start..*end], &self.multipliers[start..*end], x);
+            if let (Some(Corner { ratio, correction }), [first, .., last]) = (corner, &*x) {
+                let (first, last) = (*first, *last);
+                for (row, c) in x.iter_mut().zip(correction) {
+                    for (column, entry) in row.iter_mut().enumerate() {
+                        *entry -= (first[column] + ratio * last[column]) * c;
+                    }
                 }
             }
+            start = *end;
         }
-        if let Some(Corner { ratio, correction }) = &self.corner {
-            let (first, last) = (x[0], x[n - 1]);
-            for (row, c) in x.iter_mut().zip(correction) {
-                for (column, entry) in row.iter_mut().enumerate() {
-                    *entry -= (first[column] + ratio * last[column]) * c;
-                }
-            }
+    }
+}
+
+/// Turns a diagonal into pivots, and couplings into multipliers.
+fn eliminate(diagonal: &mut [f64], couplings: &mut [f64]) -> Result<(), Singular> {
+    for k in 1..diagonal.len() {
+        let coupling = couplings[k - 1];
+        let multiplier = coupling / diagonal[k - 1];
+        diagonal[k] -= multiplier * coupling;
+        couplings[k - 1] = multiplier;
+    }
+    let is_sound = |pivot: &f64| pivot.is_finite() && *pivot > 0.0;
+    if diagonal.iter().all(is_sound) { Ok(()) } else { Err(Singular) }
+}
+
+/// Forwards, and back.
+fn substitute<const D: usize>(pivots: &[f64], multipliers: &[f64], x: &mut [[f64; D]]) {
+    for k in 1..x.len() {
+        let (multiplier, above) = (multipliers[k - 1], x[k - 1]);
+        for (entry, above) in x[k].iter_mut().zip(above) {
+            *entry -= multiplier * above;
         }
+    }
+    let mut below = [0.0; D];
+    for (k, row) in x.iter_mut().enumerate().rev() {
+        // Nothing is below the last row.
+        let multiplier = if below == [0.0; D] { 0.0 } else { multipliers[k] };
+        for (entry, below) in row.iter_mut().zip(below) {
+            *entry = *entry / pivots[k] - multiplier * below;
+        }
+        below = *row;
     }
 }
 
@@ -156,7 +162,10 @@ mod tests {
             let (diagonal, couplings, x) = entries(n);
             let close = |closure, couplings: &[f64]| {
                 let mut y = product(&diagonal, couplings, &x);
-                Chain::new(diagonal.clone(), couplings, closure).unwrap().solve(&mut y);
+                let mut chains = Chains::default();
+                let couplings = couplings.iter().copied().chain([f64::NAN]);
+                chains.push(diagonal.iter().copied().zip(couplings), closure).unwrap();
+                chains.solve(&mut y);
                 for (found, expected) in y.iter().flatten().zip(x.iter().flatten()) {
                     assert!((found - expected).abs() < 1e-12, "{n} {closure:?}: {found} for {expected}");
                 }
@@ -170,8 +179,10 @@ mod tests {
 
     #[test]
     fn what_is_not_positive_definite_is_refused() {
-        assert_eq!(Chain::new(vec![1.0, 1.0], &[-1.0], Closure::Open).err(), Some(Singular));
-        assert_eq!(Chain::new(vec![1.0, f64::NAN], &[0.5], Closure::Open).err(), Some(Singular));
-        assert_eq!(Chain::new(vec![-1.0], &[], Closure::Open).err(), Some(Singular));
+        let refused = |rows: &[(f64, f64)]| Chains::default().push(rows.iter().copied(), Closure::Open).is_err();
+        assert!(refused(&[(1.0, -1.0), (1.0, 0.0)]));
+        assert!(refused(&[(1.0, 0.5), (f64::NAN, 0.0)]));
+        assert!(refused(&[(-1.0, 0.0)]));
+        assert!(!refused(&[(1.0, 0.5), (1.0, f64::NAN)]));
     }
 }

@@ -1,13 +1,13 @@
 //! Linear systems of the flow's step: symmetric positive definite ones only.
 //!
-//! A chain of unknowns that know their neighbours alone is solved in one pass forwards and one back ([`Chain`]), a closed
+//! A chain of unknowns that know their neighbours alone is solved in one pass forwards and one back ([`Chains`]), a closed
 //! chain by one correction of that; any other pattern by a sparse Cholesky factorization ([`SparseCholesky`]). The
 //! unknowns are points: each right-hand side has as many columns as space has dimensions.
 
 mod chain;
 mod sparse;
 
-pub use chain::{Chain, Closure};
+pub use chain::{Chains, Closure};
 pub use sparse::{Entry, SparseCholesky};
 
 /// A matrix that is not positive definite to working precision, or holds numbers that are not finite.

@@ -1,7 +1,7 @@
 //! Where the boundary runs into itself.
 
 use super::outline::Outline;
-use crate::plane::{Bounds, ChainTree, Point, Segment, place_along_curve};
+use crate::plane::{Bounds, ChainTree, Link, Point, Segment, place_along_curve};
 
 /// A search for edges that cross, among those that changed since it was last done and all others.
 #[derive(Clone, Debug, Default)]
@@ -44,13 +44,25 @@ impl Edges {
                 if ends.contains(&other.start) || ends.contains(&other.end) {
                     return;
                 }
-                let approach = segment.approach(other);
-                if approach.distance == 0.0 {
-                    visit(self.leaving[k], approach.on_first);
+                if let Some(place) = meeting(segment, other) {
+                    visit(self.leaving[k], place);
                 }
             },
         );
     }
+}
+
+/// Where two elements meet.
+fn meeting(a: &Segment, b: &Segment) -> Option<Point> {
+    if a.link == Link::Line && b.link == Link::Line {
+        // Most are far apart, and two products tell.
+        let (u, w) = (a.end - a.start, b.start - a.start);
+        if u.perp(&w) * u.perp(&(b.end - a.start)) > 0.0 {
+            return None;
+        }
+    }
+    let approach = a.approach(b);
+    (approach.distance == 0.0).then_some(approach.on_first)
 }
 
 impl Contacts {

@@ -15,6 +15,9 @@ const LONGEST_BRIDGE: f64 = 1.2;
 /// Beside so short an edge a node is taken away even for a chord as long as edges may be.
 const VANISHING: f64 = 0.1;
 
+/// Nodes nearer to each other than so many edge lengths are one: between them there is no direction to go by.
+const COINCIDENT: f64 = 1e-8;
+
 /// A ring of three nodes that is shorter than so many edge lengths has closed.
 const CLOSED: f64 = 3.0;
 
@@ -109,6 +112,7 @@ impl CurveFront<'_> {
             Some(Way::Inward) => into.perp(&out) < 0.0,
             None => true,
         };
+        let goes_back = goes_back && shortest >= COINCIDENT * h;
         if goes_back || shortest >= SHORTEST * h || (next - prev).norm() > longest_bridge * h {
             return false;
         }

@@ -2,7 +2,7 @@
 
 use super::outline::Outline;
 use crate::flow::step::{SparseStiffness, Stiffness, System};
-use crate::linalg::{Chain, Closure, Entry, Singular};
+use crate::linalg::{Chains, Closure, Entry, Singular};
 
 /// The second difference along runs of moving nodes.
 #[derive(Clone, Debug, Default)]
@@ -16,15 +16,6 @@ pub struct Runs {
 }
 
 impl Runs {
-    fn matrix(&self, range: std::ops::Range<usize>, closure: Closure) -> (Vec<f64>, Vec<f64>) {
-        let diagonal = range.clone().map(|k| self.before[k] + self.after[k]).collect();
-        let inner = match closure {
-            Closure::Open => range.start..range.end - 1,
-            Closure::Ring => range,
-        };
-        (diagonal, inner.map(|k| -self.after[k]).collect())
-    }
-
     fn ranges(&self) -> impl Iterator<Item = (std::ops::Range<usize>, Closure)> + '_ {
         let starts = std::iter::once(0).chain(self.ends.iter().map(|(end, _)| *end));
         starts.zip(&self.ends).map(|(start, &(end, closure))| (start..end, closure))
@@ -44,30 +35,28 @@ impl Runs {
     pub fn to_sparse(&self) -> SparseStiffness {
         let mut entries = Vec::new();
         for (range, closure) in self.ranges() {
-            let start = range.start;
-            let (diagonal, couplings) = self.matrix(range, closure);
-            let n = diagonal.len();
-            entries.extend((0..n).map(|k| Entry { row: start + k, column: start + k, value: diagonal[k] }));
-            entries.extend(couplings.iter().enumerate().map(|(k, c)| {
-                let next = (k + 1) % n;
-                Entry { row: start + k.max(next), column: start + k.min(next), value: *c }
-            }));
+            for k in range.clone() {
+                entries.push(Entry { row: k, column: k, value: self.before[k] + self.after[k] });
+                let next = if k + 1 < range.end { k + 1 } else { range.start };
+                if k < next || closure == Closure::Ring {
+                    entries.push(Entry { row: k.max(next), column: k.min(next), value: -self.after[k] });
+                }
+            }
         }
         SparseStiffness(entries)
     }
 }
 
 impl Stiffness for Runs {
-    type Factor = Vec<Chain>;
+    type Factor = Chains;
 
-    fn factor(&self, mass: &[f64], tau: f64) -> Result<Vec<Chain>, Singular> {
-        let chain = |(range, closure): (std::ops::Range<usize>, Closure)| {
-            let (mut diagonal, mut couplings) = self.matrix(range.clone(), closure);
-            diagonal.iter_mut().zip(&mass[range]).for_each(|(d, m)| *d = m + tau * *d);
-            couplings.iter_mut().for_each(|c| *c *= tau);
-            Chain::new(diagonal, &couplings, closure)
-        };
-        self.ranges().map(chain).collect()
+    fn factor(&self, mass: &[f64], tau: f64) -> Result<Chains, Singular> {
+        let mut chains = Chains::default();
+        for (range, closure) in self.ranges() {
+            let row = |k: usize| (mass[k] + tau * (self.before[k] + self.after[k]), -tau * self.after[k]);
+            chains.push(range.map(row), closure)?;
+        }
+        Ok(chains)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The system of a step, and the nodes about it.
 
 use super::*;
-use crate::flow::step::{Factor, Front, Stiffness, System};
+use crate::flow::step::{Front, Stiffness, System};
 use crate::plane::{Ring, Vector};
 
 fn front(rings: Vec<Ring>, obstacle: Obstacle) -> CurveFront<'static> {

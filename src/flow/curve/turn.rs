@@ -41,8 +41,33 @@ pub(super) fn turning(outline: &Outline, i: u32, h: f64) -> Turning {
 
 /// The turn of a polygon inscribed in a circle of radius `r` between edges of the lengths `a` and `b`.
 pub(super) fn unit_turn(a: f64, b: f64, r: f64) -> f64 {
-    let half_turn = |length: f64| (0.5 * length / r).min(1.0).asin();
-    half_turn(a) + half_turn(b)
+    half_turn(0.5 * a / r) + half_turn(0.5 * b / r)
+}
+
+/// asin(x), of edges longer than the diameter that of 1.
+fn half_turn(x: f64) -> f64 {
+    // Below this the series ends, to the last digit, with the power written here; the general function takes ten times
+    // as long, and most edges are an edge length.
+    const SHORT: f64 = 0.06;
+    if x >= SHORT {
+        return x.min(1.0).asin();
+    }
+    let s = x * x;
+    x * (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (5.0 / 112.0 + s * (35.0 / 1152.0 + s * (63.0 / 2816.0))))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_turns_are_right_to_the_last_digits() {
+        for k in 0..2000 {
+            let x = f64::from(k) * 1e-4;
+            assert!((half_turn(x) - x.asin()).abs() <= 8.0 * f64::EPSILON * x, "{x}");
+        }
+        assert_eq!(half_turn(3.0), std::f64::consts::FRAC_PI_2);
+    }
 }
 
 #[derive(Clone, Copy, PartialEq)]
