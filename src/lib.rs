@@ -29,6 +29,8 @@
 //!
 //! - [`units`]: lengths, radii and feeds, typed, parsed once;
 //! - [`plane`]: points, arcs, rings, regions, distance;
+//! - [`linalg`]: the linear systems of the flow's step;
+//! - [`flow`]: the flow whose limits closing and opening are, with its states on the way;
 //! - [`rolling`]: the closing, exactly: a disk rolls on the outline;
 //! - [`mod@reference`]: the closing by polygon offsetting, sharing no code with `rolling`, and a witness by distances;
 //! - [`check`]: a result against its reference; features that are lost;
@@ -41,8 +43,10 @@
 pub mod cam;
 pub mod check;
 pub mod cli;
+pub mod flow;
 pub mod gcode;
 pub mod io;
+pub mod linalg;
 pub mod plane;
 pub mod preview;
 pub mod reference;

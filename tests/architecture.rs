@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 const ALLOWED: &[(&str, &[&str])] = &[
     ("units", &[]),
     ("plane", &["units"]),
+    ("linalg", &[]),
+    ("flow", &["linalg", "plane", "units"]),
     ("rolling", &["plane", "units"]),
     ("reference", &["plane", "units"]),
     ("check", &["plane", "reference", "units"]),
@@ -15,7 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("cam", &["plane", "rolling", "units"]),
     ("gcode", &["cam", "plane", "units"]),
     ("preview", &["cam", "gcode", "plane", "units"]),
-    ("cli", &["cam", "check", "gcode", "io", "plane", "preview", "reference", "rolling", "units"]),
+    ("cli", &["cam", "check", "flow", "gcode", "io", "plane", "preview", "reference", "rolling", "units"]),
 ];
 
 fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {

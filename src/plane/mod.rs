@@ -23,7 +23,7 @@ pub use inscribed::{InscribedCircle, inscribed_circle};
 pub use pins::{PinnedArea, PinnedRegion, is_pinned};
 pub use point::{Point, Vector, left_normal, right_normal, turn_angle};
 pub use radius_field::{Gradient, RadiusField, RadiusMap};
-pub use region::{Region, TopologyCount};
+pub use region::{Region, TopologyCount, place_along_curve};
 pub use ring::{Joint, Ring, Vertex, VertexId};
 pub use segment::{Arc, Link, Nearest, Segment, Turn};
 pub use segment_distance::Approach;

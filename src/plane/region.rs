@@ -95,8 +95,8 @@ impl Region {
     }
 }
 
-/// The number of the cell of `p` when `bounds` are quartered sixteen times.
-fn place_along_curve(p: Point, bounds: &Bounds) -> u32 {
+/// The number of the cell of `p` when `bounds` are quartered sixteen times, along a curve that fills the plane (Morton's).
+pub fn place_along_curve(p: Point, bounds: &Bounds) -> u32 {
     const CELLS: f64 = 65_536.0;
     // The cast saturates, and takes what is no number, as in a box without extent, for zero.
     let cell = |x: f64, min: f64, max: f64| ((x - min) / (max - min) * CELLS) as u16;

@@ -275,3 +275,35 @@ pub fn mixed(number: u64) -> (String, Region) {
     };
     (format!("{name} {number}"), region)
 }
+
+/// An upright stroke with slab serifs and a wedge, as of a letter I with a flag: right, sharp and blunt corners.
+pub fn serif() -> Region {
+    Region::new(vec![polygon(&[
+        (-4.0, 0.0),
+        (4.0, 0.0),
+        (4.0, 0.7),
+        (1.2, 1.3),
+        (1.2, 12.0),
+        (3.5, 12.6),
+        (3.5, 13.4),
+        (-4.0, 13.0),
+        (-4.0, 12.4),
+        (-1.2, 12.0),
+        (-1.2, 1.3),
+        (-4.0, 0.7),
+    ])])
+}
+
+/// The shapes that the flow is held against the exact closing on, by name.
+pub fn flow_shapes() -> Vec<(&'static str, Region)> {
+    vec![
+        ("corner", l_corner(7.0, 3.0)),
+        ("slot", slotted_plate(10.0, 8.0, 1.2, 5.0)),
+        ("star", star(7, 4.0, 10.0)),
+        ("gear", gear(11, 8.0, 10.0, 3.0)),
+        ("serif", serif()),
+        ("dumbbell", dumbbell(5.0, 4.0, 1.0)),
+        ("spiral", spiral(3.0, 4.0, 2.5, 600)),
+        ("coast", coast(300, 12.0, 5)),
+    ]
+}

@@ -1,0 +1,171 @@
+//! The loop: steps, the clock, and when to stop.
+
+use super::step::{Displaced, Front, step};
+use crate::linalg::Singular;
+
+/// A flow that moves less than this in a step, in edge lengths, has ended: a hundred thousand such steps are not a tenth
+/// of an edge length.
+pub const DEFAULT_TOLERANCE: f64 = 1e-6;
+
+/// The flow looks for contacts whenever the boundary may have moved by so many edge lengths since it last did: what
+/// crosses is found before it has gone an edge length deep.
+const CONTACT_STRIDE: f64 = 0.25;
+
+/// A flow that has not become smaller by [`STALLED_SHRINKAGE`] edge lengths (or their squares) in so many steps makes no
+/// progress: vertices at the bound may go on trembling by less than their tolerance.
+const STALL_STEPS: u64 = 4_000;
+const STALLED_SHRINKAGE: f64 = 1e-7;
+
+/// What to do where the boundary runs into itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OnContact {
+    /// Go on, and tell.
+    #[default]
+    Report,
+    /// Stop at the first one.
+    Stop,
+}
+
+/// Why a flow ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum End {
+    /// Nothing is beyond the bound any more: the limit.
+    Still,
+    /// Everything that is beyond the bound moves by less than the tolerance in a step: the limit.
+    Slow,
+    /// The boundary ran into itself, and was to stop there.
+    Contact,
+    /// Vertices go on moving, but nothing comes of it.
+    Stalled,
+    /// A step could not be solved.
+    Singular,
+}
+
+impl End {
+    /// Whether the flow got where it was going.
+    pub fn is_limit(self) -> bool {
+        matches!(self, End::Still | End::Slow)
+    }
+}
+
+/// Where a flow is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// There is more to come.
+    Going,
+    /// It has ended.
+    Ended(End),
+}
+
+/// A front on its way.
+#[derive(Clone, Debug)]
+pub struct Advance<F, const D: usize> {
+    /// The boundary.
+    pub front: F,
+    /// Steps so far.
+    pub steps: u64,
+    /// Time so far, in the square of the unit of length.
+    pub time: f64,
+    /// The last step.
+    pub last: Displaced,
+    /// What the boundary has swept over.
+    pub swept: f64,
+    /// Where it crossed itself.
+    pub contacts: Vec<[f64; D]>,
+    tau: f64,
+    tolerance: f64,
+    on_contact: OnContact,
+    status: Status,
+    /// The farthest any vertex may have come since contacts were looked for.
+    unseen: f64,
+    /// Shrinkage since the step at which progress was last seen.
+    shrunk: f64,
+    progress_at: u64,
+}
+
+impl<F: Front<D>, const D: usize> Advance<F, D> {
+    /// A flow of `front` in steps of `tau` that ends where no vertex moves by more than `tolerance` edge lengths in one.
+    pub fn new(front: F, tau: f64, tolerance: f64, on_contact: OnContact) -> Advance<F, D> {
+        Advance {
+            front,
+            steps: 0,
+            time: 0.0,
+            last: Displaced::default(),
+            swept: 0.0,
+            contacts: Vec::new(),
+            tau,
+            tolerance,
+            on_contact,
+            status: Status::Going,
+            unseen: 0.0,
+            shrunk: 0.0,
+            progress_at: 0,
+        }
+    }
+
+    /// Where the flow is.
+    pub fn status(&self) -> Status {
+        self.status
+    }
+
+    /// One step, of the full time step or what is left of it before `until`.
+    pub fn step(&mut self, until: f64) -> Status {
+        let left = until - self.time;
+        if self.status != Status::Going || left <= 0.0 {
+            return self.status;
+        }
+        // What rounding leaves over of the last step is part of it.
+        const ROUNDING: f64 = 1e-9;
+        let tau = if left < self.tau * (1.0 + ROUNDING) { left } else { self.tau };
+        match step(&mut self.front, tau) {
+            Ok(Some(displaced)) => self.count(displaced, tau, until),
+            Ok(None) => {
+                self.last = Displaced::default();
+                self.look();
+                self.end(End::Still);
+            }
+            Err(Singular) => self.end(End::Singular),
+        }
+        self.status
+    }
+
+    fn count(&mut self, displaced: Displaced, tau: f64, until: f64) {
+        self.steps += 1;
+        self.time = if until - self.time <= tau { until } else { self.time + tau };
+        self.last = displaced;
+        self.swept += displaced.swept;
+        self.unseen += displaced.largest;
+        let edge_length = self.front.edge_length();
+        if self.unseen >= CONTACT_STRIDE * edge_length {
+            self.look();
+        }
+        self.shrunk += displaced.shrunk;
+        if self.shrunk > STALLED_SHRINKAGE * edge_length.powi(D as i32 - 1) {
+            (self.shrunk, self.progress_at) = (0.0, self.steps);
+        }
+        // A step that was cut short moves less than it would.
+        if displaced.largest < self.tolerance * edge_length * (tau / self.tau) {
+            self.look();
+            self.end(End::Slow);
+        } else if self.steps - self.progress_at > STALL_STEPS {
+            self.look();
+            self.end(End::Stalled);
+        }
+    }
+
+    fn look(&mut self) {
+        self.unseen = 0.0;
+        self.contacts.extend(self.front.contacts());
+        if self.on_contact == OnContact::Stop && !self.contacts.is_empty() {
+            self.end(End::Contact);
+        }
+    }
+
+    /// The first reason to end is the reason.
+    fn end(&mut self, end: End) {
+        if self.status == Status::Going {
+            self.status = Status::Ended(end);
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! The curvature-bounded flow, of which closing and opening are the limits.
+//!
+//! Closing moves a boundary outward, along its normal and at the speed of its curvature, wherever the curvature is below
+//! -1/r, and leaves the rest where it is (eq. 7 and 8 of the paper); opening is the mirror image, clopening is both. The
+//! flow has what the direct road of [`crate::rolling`] has not: the states on the way, radii that vary, points that
+//! stay, both bounds at once. The two share no code, and each is the other's witness.
+//!
+//! [`Obstacle`] says which curvatures stay, [`step`] takes one semi-implicit step, [`Advance`] is the loop with its clock and
+//! its reasons to stop: all three for curves and surfaces alike, which differ in their [`Front`]. [`CurveFlow`] is the flow
+//! of outlines.
+
+mod advance;
+mod curve;
+mod obstacle;
+mod step;
+
+pub use advance::{Advance, DEFAULT_TOLERANCE, End, OnContact, Status};
+pub use curve::{CurveFlow, CurveFront, DEFAULT_EDGE, DEFAULT_TIME_STEP, Field, FlowError, Report, Runs, Settings};
+pub use obstacle::{Obstacle, Way};
+pub use step::{Displaced, Factor, Front, SparseStiffness, Stiffness, System, step};
