@@ -58,10 +58,9 @@ impl<'a> Before<'a> {
         if let Some(mask) = canvas.mask(new.as_ref()) {
             canvas.fill(old.as_ref(), palette::SOLID, Some(&mask));
         }
-        let now = Before { region: after, index: BoundaryIndex::new(after), tolerance: self.tolerance };
-        let (_, left) = now.split(self.region);
         let (kept, moved) = self.split(after);
-        canvas.stroke(&view.elements(left), palette::BEFORE, weight, None);
+        // What is still there of the old boundary is drawn over.
+        canvas.stroke(&view.elements(self.region.segments()), palette::BEFORE, weight, None);
         canvas.stroke(&view.elements(kept), palette::SOLID, weight, None);
         canvas.stroke(&view.elements(moved), palette::MOVED, 1.5 * weight, None);
     }
