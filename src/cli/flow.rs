@@ -35,36 +35,39 @@ pub(super) struct FlowArgs {
     reading: ReadArgs,
 }
 
+/// Over the options that say what flows, and how far.
+const HEADING: &str = "Flow";
+
 /// What is to be done to a drawing, wherever it comes from.
 #[derive(Clone, Debug, Args)]
 pub(super) struct FlowOptions {
     /// Which curvatures the flow removes; not needed with --bound none
-    #[arg(long, value_enum, required_unless_present = "bound")]
+    #[arg(long, help_heading = HEADING, value_enum, required_unless_present = "bound")]
     op: Option<OperationArg>,
     #[command(flatten)]
     field: FieldArgs,
     /// Where the flow stops, in squares of the radius (of the largest, where it varies); at its limit unless given
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    #[arg(long, help_heading = HEADING, value_name = "TIME", allow_hyphen_values = true)]
     time: Option<f64>,
     /// Distance of vertices where the boundary moves; a thirteenth of the (smallest) radius unless given
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    #[arg(long, help_heading = HEADING, value_name = "LENGTH", allow_hyphen_values = true)]
     edge_length: Option<Length>,
     /// Step in time, in squares of the edge length
-    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_TIME_STEP, allow_hyphen_values = true)]
+    #[arg(long, help_heading = HEADING, value_name = "NUMBER", default_value_t = DEFAULT_TIME_STEP, allow_hyphen_values = true)]
     time_step: f64,
     /// The flow has come to its limit where no vertex moves by more than this in a step, in edge lengths
-    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_TOLERANCE, allow_hyphen_values = true)]
+    #[arg(long, help_heading = HEADING, value_name = "NUMBER", default_value_t = DEFAULT_TOLERANCE, allow_hyphen_values = true)]
     tolerance: f64,
     /// What happens where the boundary runs into itself
-    #[arg(long, value_enum, default_value_t = OnContactArg::Report)]
+    #[arg(long, help_heading = HEADING, value_enum, default_value_t = OnContactArg::Report)]
     on_contact: OnContactArg,
     /// What the flow may not remove
-    #[arg(long, value_enum, default_value_t = BoundArg::Curvature)]
+    #[arg(long, help_heading = HEADING, value_enum, default_value_t = BoundArg::Curvature)]
     bound: BoundArg,
     #[command(flatten)]
     outputs: OutputArgs,
     /// How to print the report: text goes to standard error, json to standard output
-    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
+    #[arg(long, help_heading = "Output", value_enum, default_value_t = FormatArg::Text)]
     format: FormatArg,
 }
 

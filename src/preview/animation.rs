@@ -109,7 +109,7 @@ impl Stage<'_> {
         let room = [long - 2.0 * margin, long - 2.0 * margin - footer];
         let scale = (room[0] / bounds.width()).min(room[1] / bounds.height());
         let plot = [scale * bounds.width(), scale * bounds.height()].map(|side| side.max(0.1 * long));
-        let size = [plot[0] + 2.0 * margin, plot[1] + 2.0 * margin + footer].map(f64::ceil);
+        let size = [plot[0] + 2.0 * margin, plot[1] + 2.0 * margin + footer].map(f64::round);
         let view = View::fit(&bounds, Point::new(margin, margin), plot, scale);
         let pixels = size.map(|side| side as u32);
         Ok(Stage { before, view, size, pixels, margin, caption, weight: (WEIGHT * long).max(0.8) })
