@@ -38,17 +38,19 @@ impl CurveFront<'_> {
         let node = self.outline.node(edge);
         let far = if is_start { node.next } else { edge };
         let h = self.edge_at(i);
+        let both_move = self.way(far).is_some();
         let aim = match node.arc {
-            NONE => h,
-            arc => h.min((8.0 * self.outline.arcs[arc as usize].radius * ARC_SAGITTA * h).sqrt()),
+            arc if arc != NONE && !both_move => {
+                h.min((8.0 * self.outline.arcs[arc as usize].radius * ARC_SAGITTA * h).sqrt())
+            }
+            _ => h,
         };
         let length = self.outline.edge(edge).length();
         if length <= LONGEST * aim {
             return;
         }
         // Between two moving nodes that are near each other, in the middle.
-        let meets = self.way(far).is_some() && length < (1.0 + LONGEST) * aim;
-        let t = if meets { 0.5 } else { aim / length };
+        let t = if both_move && length < (1.0 + LONGEST) * aim { 0.5 } else { aim / length };
         self.put_on(edge, if is_start { t } else { 1.0 - t });
     }
 

@@ -35,7 +35,10 @@ fn chains_and_the_sparse_solver_agree_on_the_step() {
             assert!((a - b).abs() <= 1e-12 * largest, "step {step}: {a} and {b}");
         }
         if step == 0 {
-            assert!(stiffness.has_ring() && stiffness.has_open_run(), "both kinds of chains are to be tested");
+            assert!(
+                stiffness.has_ring() && stiffness.has_open_run(),
+                "both kinds of chains are to be tested: {stiffness:?}"
+            );
         }
         chains.as_flattened_mut().iter_mut().for_each(|d| *d *= tau);
         front.displace(&chains);
