@@ -2,7 +2,7 @@
 //!
 //! Every browser plays it without script (SMIL), also where it is embedded as an image. Who knows no animation sees the last
 //! state. A part (an outline with its holes) that looks the same in states that follow each other is written once for all of
-//! them. The outlines are for looking at: what moved is rounded and thinned far below a pixel; [`write`](super::write) gives a
+//! them. The outlines are for looking at: what moved is rounded and thinned far below a pixel; [`write`](fn@super::write) gives a
 //! state with all its digits.
 
 use std::collections::HashMap;
