@@ -96,7 +96,7 @@ pub(super) fn run(args: &CloseArgs, operation: Operation) -> Result<ExitStatus> 
     let drawing = args.reading.read(&args.input)?;
     let units = args.radius.to_user_units(&drawing.scale()).context("--radius")?;
     let radius = Radius::new(units).context("--radius")?;
-    refuse_absurd(radius, args.radius, drawing.region.bounds().diagonal())?;
+    refuse_absurd(radius, args.radius, "--radius", drawing.region.bounds().diagonal())?;
     let topology = args.topology.into();
     let outcome = match operation {
         Operation::Close => rolling::close(&drawing.region, radius, topology),
@@ -116,13 +116,16 @@ pub(super) fn run(args: &CloseArgs, operation: Operation) -> Result<ExitStatus> 
 }
 
 /// Refuses radii that are slips of the unit: beyond them coordinates do not tell the disk from a point or a line.
-fn refuse_absurd(radius: Radius, typed: Length, diagonal: f64) -> Result<()> {
+///
+/// # Errors
+/// Names the option.
+pub(super) fn refuse_absurd(radius: Radius, typed: Length, option: &str, diagonal: f64) -> Result<()> {
     const SMALLEST: f64 = 1e-6;
     const LARGEST: f64 = 1e3;
     let relative = radius.get() / diagonal;
     if !(SMALLEST..=LARGEST).contains(&relative) {
         bail!(
-            "--radius {typed} is {relative:.1e} of the drawing's diagonal ({diagonal:.4} user units): is the unit right? \
+            "{option} {typed} is {relative:.1e} of the drawing's diagonal ({diagonal:.4} user units): is the unit right? \
              2% means two hundredths of the diagonal"
         );
     }
@@ -199,7 +202,7 @@ impl Report {
 }
 
 /// Places at least `apart` from each other that stand for all of them.
-fn spread(places: &[Point], apart: f64) -> Vec<Point> {
+pub(super) fn spread(places: &[Point], apart: f64) -> Vec<Point> {
     let mut kept: Vec<Point> = vec![];
     // Those that are kept, by squares of that side: only the nine about a place can hold one that is near it.
     let mut squares: HashMap<(i64, i64), Vec<Point>> = HashMap::new();

@@ -2,6 +2,7 @@
 
 pub mod check;
 mod close;
+mod flow;
 mod input;
 mod lint;
 mod mill;
@@ -29,6 +30,8 @@ enum Command {
     Close(close::CloseArgs),
     /// Remove what a disk cannot reach from inside: convex corners get the disk's radius, the rest stays
     Open(close::CloseArgs),
+    /// Let outlines flow in time towards their closing, opening or both, and show the states on the way
+    Flow(Box<flow::FlowArgs>),
     /// Compare a closed or opened drawing with an independent reference
     Check(check::CheckArgs),
     /// Draw a picture of a drawing (SVG) or of a program (anything else)
@@ -64,6 +67,7 @@ pub fn main() -> ExitCode {
         Command::Mill(args) => mill::run(&args),
         Command::Close(args) => close::run(&args, close::Operation::Close),
         Command::Open(args) => close::run(&args, close::Operation::Open),
+        Command::Flow(args) => flow::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Preview(args) => preview::run(&args),
         Command::Lint(args) => lint::run(&args),

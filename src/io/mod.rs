@@ -1,4 +1,5 @@
-//! Drawings in and out.
+//! Drawings in and out; grey pictures in.
 
+pub mod picture;
 pub mod svg;
 mod unite;

@@ -1,7 +1,8 @@
 //! A sheet of pixels with a view on the plane.
 
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform,
+    Color, FillRule, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Stroke,
+    StrokeDash, Transform,
 };
 
 use super::PreviewError;
@@ -229,6 +230,11 @@ impl Canvas {
         }
         self.stroke(builder.finish().as_ref(), color, TEXT_WEIGHT * height, None);
         unit * width
+    }
+
+    /// The pixels, row after row from the top; all are opaque.
+    pub(super) fn pixels(&self) -> &[PremultipliedColorU8] {
+        self.pixmap.pixels()
     }
 
     /// The picture as a PNG file.

@@ -1,14 +1,22 @@
-//! Pictures of programs, as they were read back, and of outlines.
+//! Pictures of programs, as they were read back, of outlines, and of the states of a flow: as a sheet or in motion.
 //!
 //! The same input gives the same bytes.
 
+mod animation;
 mod canvas;
+mod contact;
+mod frame;
+mod indexed;
 mod lettering;
 mod outline;
 mod palette;
 mod program;
 mod sheet;
+mod state;
 
+pub use animation::{Picture, animation};
+pub use contact::{Cell, contact_sheet};
+pub use frame::{Frame, time_captions};
 pub use outline::outline;
 pub use program::{Scene, program};
 pub use sheet::DEFAULT_SIZE;

@@ -7,7 +7,7 @@ use crate::plane::{BoundaryIndex, Region, Segment};
 
 /// An element whose middle lies this much of the drawing's diagonal away from a boundary is not on it: far above the
 /// rounding of any file, far below a pixel.
-const SAME_BOUNDARY: f64 = 1e-6;
+pub(super) const SAME_BOUNDARY: f64 = 1e-6;
 
 /// The picture of `region`, as a PNG file of `size` pixels on its long side; `before` is what it was made from.
 ///

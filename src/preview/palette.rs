@@ -15,6 +15,10 @@ pub(super) const SWATH: Rgba = [233, 238, 243, 255];
 pub(super) const KEPT: Rgba = [73, 80, 87, 255];
 /// A boundary that moved.
 pub(super) const MOVED: Rgba = [214, 51, 108, 255];
+/// The solid of one state among many.
+pub(super) const SOLID: Rgba = [73, 80, 87, 255];
+/// A boundary that was there before.
+pub(super) const BEFORE: Rgba = [134, 142, 150, 255];
 /// Material that stays where it should not.
 pub(super) const UNCUT: Rgba = [255, 169, 77, 255];
 pub(super) const UNCUT_LINE: Rgba = [217, 72, 15, 255];

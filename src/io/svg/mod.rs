@@ -14,6 +14,7 @@
 //! into what lies below it (subtract it in the drawing program). Masks, filters, images and markers are not applied.
 
 mod affine;
+mod animate;
 mod collect;
 mod document;
 mod drawing;
@@ -31,11 +32,13 @@ mod rough;
 mod sample;
 mod shape;
 mod stroke;
+mod thin;
 mod viewport;
 mod write;
 
 use std::collections::HashMap;
 
+pub use animate::{Still, animate};
 pub use drawing::{Curve, CurveKind, Drawing, Sources, VertexSource};
 pub use error::{Found, MAX_COORDINATE, Place, ReadError, Warning, WarningKind};
 pub use options::{Curves, DEFAULT_FLATTEN, ReadOptions, Strokes};

@@ -53,6 +53,18 @@ impl Page {
         Some([view.x, view.y, view.w, view.h])
     }
 
+    /// What the page shows: x, y, width and height in user units. That is the view box; without one, width and height.
+    pub fn area(&self) -> Option<[f64; 4]> {
+        let side = |text: &Option<String>| {
+            let pixels = to_pixels(svgtypes::Length::from_str(text.as_deref()?.trim()).ok()?)?;
+            (pixels > 0.0 && pixels.is_finite()).then_some(pixels)
+        };
+        match &self.view_box {
+            Some(_) => self.view_box(),
+            None => Some([0.0, 0.0, side(&self.width)?, side(&self.height)?]),
+        }
+    }
+
     /// Whether there is a view box that means nothing: then the drawing's own units mean nothing either.
     pub(super) fn has_invalid_view_box(&self) -> bool {
         self.view_box.is_some() && self.view_box().is_none()
@@ -106,6 +118,20 @@ mod tests {
         let text = |t: &str| (!t.is_empty()).then(|| t.to_owned());
         Page { width: text(width), height: text(height), view_box: text(view_box), preserve_aspect_ratio: text(aspect) }
             .unit_size()
+    }
+
+    #[test]
+    fn areas_of_pages() {
+        let area = |width: &str, height: &str, view_box: Option<&str>| {
+            let text = |t: &str| (!t.is_empty()).then(|| t.to_owned());
+            Page { width: text(width), height: text(height), view_box: view_box.map(str::to_owned), ..Page::default() }
+                .area()
+        };
+        assert_eq!(area("120mm", "80mm", Some("1 2 30 40")), Some([1.0, 2.0, 30.0, 40.0]));
+        assert_eq!(area("120px", "1in", None), Some([0.0, 0.0, 120.0, 96.0]));
+        assert_eq!(area("100%", "80", None), None);
+        assert_eq!(area("120mm", "80mm", Some("a")), None);
+        assert_eq!(area("120", "", None), None);
     }
 
     #[test]

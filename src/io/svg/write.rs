@@ -47,7 +47,8 @@ pub fn write(drawing: &Drawing, region: &Region) -> String {
     svg
 }
 
-struct PathWriter<'a> {
+/// Writes rings of a drawing as path data.
+pub(super) struct PathWriter<'a> {
     drawing: &'a Drawing,
     /// The curves by the vertices where they start and where they end; none where vertices alone are written.
     starting: HashMap<VertexId, Vec<u32>>,
@@ -74,7 +75,7 @@ impl Run<'_> {
 }
 
 impl<'a> PathWriter<'a> {
-    fn new(drawing: &'a Drawing) -> PathWriter<'a> {
+    pub(super) fn new(drawing: &'a Drawing) -> PathWriter<'a> {
         let mut starting: HashMap<VertexId, Vec<u32>> = HashMap::new();
         let mut ending: HashMap<VertexId, Vec<u32>> = HashMap::new();
         if drawing.curves != Curves::Polygon {
@@ -86,7 +87,8 @@ impl<'a> PathWriter<'a> {
         PathWriter { drawing, starting, ending }
     }
 
-    fn ring(&self, ring: &Ring, data: &mut String) {
+    /// Adds a ring of two vertices or more to the data.
+    pub(super) fn ring(&self, ring: &Ring, data: &mut String) {
         // Start where a command does, or a curve that runs over the start would be torn.
         let n = ring.len();
         let is_end = |k: usize| {
