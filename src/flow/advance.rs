@@ -1,11 +1,11 @@
 //! The loop: steps, the clock, and when to stop.
 
-use super::step::{Displaced, Front, step};
+use super::step::{Displaced, Front, TREMBLING, step};
 use crate::linalg::Singular;
 
 /// A flow that moves less than this in a step, in edge lengths, has ended: a hundred thousand such steps are not a tenth
 /// of an edge length.
-pub const DEFAULT_TOLERANCE: f64 = 1e-6;
+pub const DEFAULT_TOLERANCE: f64 = TREMBLING;
 
 /// The flow looks for contacts whenever the boundary may have moved by so many edge lengths since it last did: what
 /// crosses is found before it has gone an edge length deep.
@@ -15,6 +15,9 @@ const CONTACT_STRIDE: f64 = 0.25;
 /// progress: vertices at the bound may go on trembling by less than their tolerance.
 const STALL_STEPS: u64 = 4_000;
 const STALLED_SHRINKAGE: f64 = 1e-7;
+
+/// Steps get longer by so much at once: what they meet next may need short ones.
+const GROWTH: f64 = 2.0;
 
 /// What to do where the boundary runs into itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -73,11 +76,14 @@ pub struct Advance<F, const D: usize> {
     pub swept: f64,
     /// Where it crossed itself.
     pub contacts: Vec<[f64; D]>,
-    tau: f64,
+    /// The time step in units of the shortest edge length that moves, squared.
+    time_step: f64,
+    /// That edge length.
+    shortest_edge: f64,
     tolerance: f64,
     on_contact: OnContact,
     status: Status,
-    /// The farthest any vertex may have come since contacts were looked for.
+    /// The farthest any vertex may have come since contacts were looked for, in edge lengths.
     unseen: f64,
     /// Shrinkage since the step at which progress was last seen.
     shrunk: f64,
@@ -85,16 +91,18 @@ pub struct Advance<F, const D: usize> {
 }
 
 impl<F: Front<D>, const D: usize> Advance<F, D> {
-    /// A flow of `front` in steps of `tau` that ends where no vertex moves by more than `tolerance` edge lengths in one.
-    pub fn new(front: F, tau: f64, tolerance: f64, on_contact: OnContact) -> Advance<F, D> {
+    /// A flow of `front` in steps of `time_step` squares of the shortest edge length that moves, which ends where no vertex
+    /// moves by more than `tolerance` edge lengths in one.
+    pub fn new(front: F, time_step: f64, tolerance: f64, on_contact: OnContact) -> Advance<F, D> {
         Advance {
+            shortest_edge: front.edge_length(),
             front,
             steps: 0,
             time: 0.0,
             last: Displaced::default(),
             swept: 0.0,
             contacts: Vec::new(),
-            tau,
+            time_step,
             tolerance,
             on_contact,
             status: Status::Going,
@@ -117,9 +125,10 @@ impl<F: Front<D>, const D: usize> Advance<F, D> {
         }
         // What rounding leaves over of the last step is part of it.
         const ROUNDING: f64 = 1e-9;
-        let tau = if left < self.tau * (1.0 + ROUNDING) { left } else { self.tau };
+        let full = self.time_step * self.shortest_edge * self.shortest_edge;
+        let tau = if left < full * (1.0 + ROUNDING) { left } else { full };
         match step(&mut self.front, tau) {
-            Ok(Some(displaced)) => self.count(displaced, tau, until),
+            Ok(Some(displaced)) => self.count(displaced, tau, full, until),
             Ok(None) => {
                 self.last = Displaced::default();
                 self.look();
@@ -130,28 +139,28 @@ impl<F: Front<D>, const D: usize> Advance<F, D> {
         self.status
     }
 
-    fn count(&mut self, displaced: Displaced, tau: f64, until: f64) {
+    fn count(&mut self, displaced: Displaced, tau: f64, full: f64, until: f64) {
         self.steps += 1;
         self.time = if until - self.time <= tau { until } else { self.time + tau };
         self.last = displaced;
         self.swept += displaced.swept;
         self.unseen += displaced.largest;
-        let edge_length = self.front.edge_length();
-        if self.unseen >= CONTACT_STRIDE * edge_length {
+        if self.unseen >= CONTACT_STRIDE {
             self.look();
         }
         self.shrunk += displaced.shrunk;
-        if self.shrunk > STALLED_SHRINKAGE * edge_length.powi(D as i32 - 1) {
+        if self.shrunk > STALLED_SHRINKAGE * self.front.edge_length().powi(D as i32 - 1) {
             (self.shrunk, self.progress_at) = (0.0, self.steps);
         }
         // A step that was cut short moves less than it would.
-        if displaced.largest < self.tolerance * edge_length * (tau / self.tau) {
+        if displaced.largest < self.tolerance * (tau / full) {
             self.look();
             self.end(End::Slow);
         } else if self.steps - self.progress_at > STALL_STEPS {
             self.look();
             self.end(End::Stalled);
         }
+        self.shortest_edge = displaced.shortest_edge.clamp(self.front.edge_length(), GROWTH * self.shortest_edge);
     }
 
     fn look(&mut self) {

@@ -31,7 +31,7 @@ pub trait Front<const D: usize> {
     /// Places where the boundary crosses itself that were not there when it was last asked.
     fn contacts(&mut self) -> Vec<[f64; D]>;
 
-    /// The edge length aimed at, where it is shortest.
+    /// The edge length aimed at, where it is shortest of all.
     fn edge_length(&self) -> f64;
 }
 
@@ -48,13 +48,18 @@ pub struct System<S, const D: usize> {
     pub beyond: Vec<f64>,
 }
 
+/// Vertices at the bound may go on moving by up to so many edge lengths in a step.
+pub const TREMBLING: f64 = 1e-6;
+
 /// What became of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Displaced {
     /// How many vertices moved.
     pub moving: usize,
-    /// The largest displacement.
+    /// The largest displacement, in edge lengths of the place.
     pub largest: f64,
+    /// The shortest edge length aimed at where vertices moved by more than [`TREMBLING`]; infinite where none did.
+    pub shortest_edge: f64,
     /// By how much the boundary became smaller (length of curves, area of surfaces).
     pub shrunk: f64,
     /// What the boundary swept over (area of the plane, volume of space).

@@ -124,7 +124,7 @@ impl Progress {
             self.bar.set_position((flow.time() / end * PARTS as f64) as u64);
         }
         let (moving, largest) = flow.last_step();
-        self.bar.set_message(format!("{moving} vertices moving, by {largest:.1e} at most"));
+        self.bar.set_message(format!("{moving} vertices moving, by {largest:.1e} edge lengths at most"));
     }
 }
 

@@ -25,7 +25,7 @@ pub(super) struct Report {
     time_r2: f64,
     /// Why it ended before the time that was asked for; none where it did not.
     end: Option<End>,
-    largest_last_displacement_units: f64,
+    largest_last_displacement_edge_lengths: f64,
     swept_square_units: f64,
     moved_fraction: f64,
     vertices_in: usize,
@@ -75,7 +75,7 @@ impl Report {
             steps: flow.steps,
             time_r2: flow.time / (largest * largest),
             end: flow.end,
-            largest_last_displacement_units: flow.largest,
+            largest_last_displacement_edge_lengths: flow.largest,
             swept_square_units: flow.swept,
             moved_fraction: flow.moved_fraction,
             vertices_in: flow.vertices,

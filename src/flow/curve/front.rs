@@ -8,7 +8,7 @@ use super::outline::Outline;
 use super::runs::{self, Runs};
 use super::turn::{turning, unit_turn};
 use crate::flow::obstacle::{Obstacle, Way};
-use crate::flow::step::{Displaced, Front, System};
+use crate::flow::step::{Displaced, Front, System, TREMBLING};
 use crate::linalg::Closure;
 use crate::plane::{Point, Vector, turn_angle};
 
@@ -245,10 +245,14 @@ impl Front<2> for CurveFront<'_> {
         let starts = std::iter::once(0).chain(ends.iter().copied());
         let origins: Vec<Point> = starts.take(ends.len()).map(|k| self.outline.node(self.moving[k]).point).collect();
         let (length, doubled_area) = self.measure(&ends, &origins);
-        let mut largest: f64 = 0.0;
+        let (mut largest, mut shortest_edge): (f64, f64) = (0.0, f64::INFINITY);
         for (&i, d) in self.moving.iter().zip(&allowed) {
-            let distance = d.norm();
+            let h = self.edge * self.outline.node(i).radius;
+            let distance = d.norm() / h;
             largest = largest.max(distance);
+            if distance > TREMBLING {
+                shortest_edge = shortest_edge.min(h);
+            }
             if distance > 0.0 {
                 self.outline.displace(i, *d);
             }
@@ -263,6 +267,7 @@ impl Front<2> for CurveFront<'_> {
         let displaced = Displaced {
             moving: self.moving.len(),
             largest,
+            shortest_edge,
             shrunk: length - new_length,
             swept: 0.5 * (new_doubled_area - doubled_area).abs(),
         };

@@ -48,7 +48,7 @@ impl Field<'_> {
 pub struct Settings {
     /// The edge length h in units of the radius at the place.
     pub edge: f64,
-    /// The time step tau in units of the shortest h, squared.
+    /// The time step tau in units of the shortest h where something moves, squared.
     pub time_step: f64,
     /// The flow ends where no vertex moves by more than so many edge lengths in a step.
     pub tolerance: f64,
@@ -105,7 +105,7 @@ pub struct Report {
     pub end: Option<End>,
     /// Vertices that moved in the last step.
     pub moving: usize,
-    /// The largest displacement of the last step.
+    /// The largest displacement of the last step, in edge lengths.
     pub largest: f64,
     /// The area that the boundary has swept over.
     pub swept: f64,
@@ -156,9 +156,10 @@ impl<'a> CurveFlow<'a> {
             }
         }
         let front = CurveFront::new(Outline::new(region), obstacle, field, edge);
-        let h = super::Front::edge_length(&front);
-        let tau = time_step * h * h;
-        Ok(CurveFlow { advance: Advance::new(front, tau, tolerance, on_contact), vertices: region.vertex_count() })
+        Ok(CurveFlow {
+            advance: Advance::new(front, time_step, tolerance, on_contact),
+            vertices: region.vertex_count(),
+        })
     }
 
     /// One step, which ends at the time `until` at the latest.
@@ -187,7 +188,7 @@ impl<'a> CurveFlow<'a> {
         self.advance.swept
     }
 
-    /// Vertices that moved in the last step, and the farthest that one did.
+    /// Vertices that moved in the last step, and the farthest that one did, in edge lengths.
     pub fn last_step(&self) -> (usize, f64) {
         (self.advance.last.moving, self.advance.last.largest)
     }
