@@ -1,4 +1,6 @@
-//! Drawings in and out.
+//! Drawings in and out; letters and fonts.
 
+#[cfg(feature = "text")]
+pub mod font;
 pub mod svg;
 mod unite;

@@ -1,4 +1,4 @@
-//! Pictures of programs, as they were read back, and of outlines.
+//! Pictures of programs, as they were read back, of outlines and of fonts.
 //!
 //! The same input gives the same bytes.
 
@@ -8,10 +8,12 @@ mod outline;
 mod palette;
 mod program;
 mod sheet;
+mod specimen;
 
 pub use outline::outline;
 pub use program::{Scene, program};
 pub use sheet::DEFAULT_SIZE;
+pub use specimen::{SpecimenRow, specimen};
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
