@@ -58,21 +58,24 @@ mod with_text {
     use super::*;
     use crate::cli::text::StyleOp;
     use crate::cli::{input, output};
-    use crate::io::font::{self, Face, Fate, FontNames, OutlineFormat, RestyleOptions, Restyled, Sampling};
+    use crate::io::font::{
+        self, Face, Fate, FontNames, GRID_DISTANCE, OutlineFormat, RestyleOptions, Restyled, Sampling,
+    };
     use crate::preview::{self, SpecimenRow};
 
     /// So many glyphs are named in words.
     const SHOWN: usize = 8;
 
     /// The lines of a specimen; what the font lacks of them is left out.
-    const SPECIMEN: [&str; 6] = [
-        "ABCDEFGHIJKLMN",
-        "OPQRSTUVWXYZ&",
-        "abcdefghijklmnopqrs",
-        "tuvwxyz 0123456789",
-        "Quick wafting zephyrs",
-        "vex bold Jim.",
+    const SPECIMEN: [&str; 4] = [
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZ",
+        "abcdefghijklmnopqrstuvwxyz",
+        "0123456789 &?! fi fl \u{c4}\u{c9}\u{f1}\u{e7}\u{df}",
+        "Quick wafting zephyrs vex bold Jim.",
     ];
+
+    /// So many characters of a licence are shown.
+    const LICENCE: usize = 240;
 
     /// What was done, for people and for programs.
     #[derive(Debug, serde::Serialize)]
@@ -89,6 +92,7 @@ mod with_text {
         changed_by_components: usize,
         vanished: Vec<u16>,
         refused: Vec<Refused>,
+        at_the_grid: Vec<u16>,
         beyond_tolerance: Vec<u16>,
         largest_deviation_font_units: f64,
         largest_deviation_glyph: u16,
@@ -211,6 +215,7 @@ mod with_text {
                 changed_by_components: numbers(|f| *f == Fate::ChangedByComponents).len(),
                 vanished: numbers(|f| *f == Fate::Vanished),
                 refused: refused.collect(),
+                at_the_grid: restyled.coarse,
                 beyond_tolerance: restyled.beyond,
                 largest_deviation_font_units: restyled.deviation.0,
                 largest_deviation_glyph: restyled.deviation.1,
@@ -244,6 +249,14 @@ mod with_text {
             if !self.vanished.is_empty() {
                 text += &format!("nothing is left of {}\n", listed(&self.vanished));
             }
+            if !self.at_the_grid.is_empty() {
+                text += &format!(
+                    "whole font units are coarser than the tolerance: {} of {} are up to {:.2} units off\n",
+                    self.at_the_grid.len(),
+                    self.glyphs,
+                    GRID_DISTANCE
+                );
+            }
             if !self.beyond_tolerance.is_empty() {
                 text += &format!(
                     "BEYOND TOLERANCE: {}: whole font units are too coarse there; allow more with --tolerance\n",
@@ -260,10 +273,19 @@ mod with_text {
             let fs_type = self.fs_type.map_or("none".to_owned(), |bits| format!("{bits:#06x}"));
             text += &format!("  OS/2 fsType: {fs_type}\n");
             for (what, said) in [("licence", &self.after.licence), ("licence at", &self.after.licence_url)] {
-                text += &format!("  {what}: {}\n", said.as_deref().unwrap_or("not said").trim());
+                text += &format!("  {what}: {}\n", begun(said.as_deref().unwrap_or("not said")));
             }
             text
         }
+    }
+
+    /// The beginning of a text, in one line.
+    fn begun(text: &str) -> String {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let line = words.join(" ");
+        let shown: String = line.chars().take(LICENCE).collect();
+        let more = line.chars().count().saturating_sub(LICENCE);
+        if more > 0 { format!("{shown}... ({more} characters more: --format json shows all)") } else { shown }
     }
 
     fn listed(glyphs: &[u16]) -> String {

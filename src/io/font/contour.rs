@@ -80,10 +80,7 @@ mod tests {
         assert_eq!(subpath.commands[3], Command::Quadratic(p(1.0, 1.0), p(1.0, 0.0)));
         // The same from any start, and with a point on the curve in the midst.
         let mixed = outline(&[contour(&[(0.0, 2.0, false), (4.0, 0.0, true), (0.0, -4.0, true)])]);
-        let expected = [
-            Command::Line(p(0.0, 4.0)),
-            Command::Quadratic(p(0.0, -2.0), p(4.0, 0.0)),
-        ];
+        let expected = [Command::Line(p(0.0, 4.0)), Command::Quadratic(p(0.0, -2.0), p(4.0, 0.0))];
         assert_eq!((mixed.subpaths[0].start, &mixed.subpaths[0].commands[..]), (p(4.0, 0.0), &expected[..]));
     }
 

@@ -57,8 +57,8 @@ impl<'a> Face<'a> {
         if sfnt.tables.contains_key(b"fvar") {
             return Err(FontError::Variable);
         }
-        let reference = skrifa::FontRef::from_index(bytes, sfnt.index)
-            .map_err(|e| FontError::NotAFont { found: e.to_string() })?;
+        let reference =
+            skrifa::FontRef::from_index(bytes, sfnt.index).map_err(|e| FontError::NotAFont { found: e.to_string() })?;
         let head = sfnt.required(b"head", 54)?;
         let units_per_em = u16_at(head, 18).unwrap_or(0);
         if !(16..=16_384).contains(&units_per_em) {

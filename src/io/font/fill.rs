@@ -7,7 +7,7 @@ use crate::io::svg::outline::Outline;
 use crate::io::svg::sample::{self, Meetings};
 use crate::io::svg::{Curves, Place, Sources};
 use crate::io::unite::{self, Rule};
-use crate::plane::Region;
+use crate::plane::{Region, Ring};
 use crate::units::Radius;
 
 /// How far the chords may stray from the curves of letters, in parts of the em: a hundredth of a unit of a thousand.
@@ -47,6 +47,12 @@ pub(super) struct Filled {
 impl Filled {
     /// What one outline fills by the nonzero rule, added: what several fill is united by [`Filled::unite`].
     pub fn add(&mut self, outline: &Outline, affine: &Affine, sampling: Sampling, name: &str) {
+        let rings = self.rings(outline, affine, sampling, name);
+        self.region.rings.extend(unite::resolve(rings, Rule::NonZero));
+    }
+
+    /// The rings of an outline, which may cross.
+    fn rings(&mut self, outline: &Outline, affine: &Affine, sampling: Sampling, name: &str) -> Vec<Ring> {
         let element = self.sources.elements.len() as u32;
         self.sources.elements.push(Place { element: name.to_owned(), id: None, line: 1 });
         let sampling = sample::Sampling {
@@ -55,8 +61,7 @@ impl Filled {
             meetings: Meetings::All(sampling.smooth_angle),
             known: None,
         };
-        let rings = sample::rings(outline, affine, sampling, element, &mut self.sources);
-        self.region.rings.extend(unite::resolve(rings, Rule::NonZero));
+        sample::rings(outline, affine, sampling, element, &mut self.sources)
     }
 
     /// Unites what overlaps.
@@ -69,6 +74,12 @@ impl Filled {
         let mut filled = Filled::default();
         filled.add(outline, &Affine::IDENTITY, sampling, "glyph");
         filled
+    }
+
+    /// The lines that contours draw, what overlaps not united.
+    pub fn lines_of_contours(contours: &[Contour], sampling: Sampling) -> Region {
+        let mut filled = Filled::default();
+        Region::new(filled.rings(&contour::outline(contours), &Affine::IDENTITY, sampling, "glyph"))
     }
 
     /// What contours fill.

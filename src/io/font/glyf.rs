@@ -320,7 +320,8 @@ mod tests {
         // Two components: half as large and shifted by (10, -20); and with its point 0 on point 1 of what is there.
         let mut data = (-1i16).to_be_bytes().to_vec();
         data.extend([0; 8]);
-        let words: [u16; 5] = [HAS_INSTRUCTIONS | MORE_COMPONENTS | HAS_SCALE | ARGS_ARE_XY | ARGS_ARE_WORDS, 5, 10, 65516, 0x2000];
+        let words: [u16; 5] =
+            [HAS_INSTRUCTIONS | MORE_COMPONENTS | HAS_SCALE | ARGS_ARE_XY | ARGS_ARE_WORDS, 5, 10, 65516, 0x2000];
         words.iter().for_each(|w| data.extend(w.to_be_bytes()));
         data.extend([0, 0, 0, 6, 1, 0, 0, 2, 7, 7]);
         let Glyph::Composite(read) = parse(&data).unwrap() else { panic!("composite") };

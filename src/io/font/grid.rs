@@ -25,8 +25,16 @@ const SLIDE_PART: f64 = 0.4;
 /// Coordinates nearer to half a unit than this are taken for half a unit: which way it goes must not hang on rounding.
 const HALF: f64 = 1e-6;
 
+/// A contour in whole units.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Rounded {
+    pub contour: Contour,
+    /// Which of its points were rounded and may be elsewhere as well: no corners, and nothing that the font had there.
+    pub movable: Vec<bool>,
+}
+
 /// The contour of `knots` in whole units; `exact` is the outline that they follow.
-pub(super) fn contour(knots: &[Knot], exact: &BoundaryIndex) -> Contour {
+pub(super) fn contour(knots: &[Knot], exact: &BoundaryIndex) -> Rounded {
     let n = knots.len();
     let directions: Vec<[Vector; 2]> = (0..n).map(|k| directions(knots, k)).collect();
     let is_smooth: Vec<bool> = directions.iter().map(|[a, b]| turn(*a, *b) < SMOOTH_TURN).collect();
@@ -54,7 +62,7 @@ pub(super) fn contour(knots: &[Knot], exact: &BoundaryIndex) -> Contour {
             knots[k].controls.iter().enumerate().map(steer).collect()
         })
         .collect();
-    let mut contour: Contour = Vec::new();
+    let mut rounded = Rounded::default();
     for k in 0..n {
         let middle = controls[(k + n - 1) % n].last().zip(controls[k].first()).map(|(a, b)| nalgebra::center(a, b));
         // What the font had in the middle of two control points, and what may as well be there.
@@ -63,12 +71,14 @@ pub(super) fn contour(knots: &[Knot], exact: &BoundaryIndex) -> Contour {
             !is_whole(knots[k].point) && is_smooth[k] && off <= IMPLIED
         });
         if !is_implied {
-            contour.push(ContourPoint { point: placed[k], on_curve: true });
+            rounded.push(placed[k], true, is_smooth[k] && !is_whole(knots[k].point));
         }
-        contour.extend(controls[k].iter().map(|&point| ContourPoint { point, on_curve: false }));
+        for (point, exact) in controls[k].iter().zip(&knots[k].controls) {
+            rounded.push(*point, false, !is_whole(*exact));
+        }
     }
-    without_repetition(&mut contour);
-    contour
+    rounded.drop_repetition();
+    rounded
 }
 
 /// The directions in which the outline comes to a knot and leaves it.
@@ -104,10 +114,17 @@ fn places(p: Point, reach: f64) -> impl Iterator<Item = Point> {
 
 /// The place on the grid that is nearest to the outline, not far from `p`.
 fn slid(p: Point, reach: f64, exact: &BoundaryIndex) -> Point {
-    let best = best(places(p, reach).filter(|q| (q - p).norm() <= reach.max(std::f64::consts::FRAC_1_SQRT_2 + HALF)), |q| {
-        exact.distance(q) + SLIDE_COST * (q - p).norm()
-    });
-    best.unwrap_or_else(|| rounded(p))
+    let mut best: Option<(Point, f64)> = None;
+    for q in places(p, reach) {
+        let slide = (q - p).norm();
+        // What is known to cost more need not be measured.
+        let worth = best.map_or(f64::INFINITY, |(_, least)| least - SLIDE_COST * slide);
+        if slide > reach.max(std::f64::consts::FRAC_1_SQRT_2 + HALF) || worth <= 0.0 || !exact.is_nearer(q, worth) {
+            continue;
+        }
+        best = Some((q, exact.distance(q) + SLIDE_COST * slide));
+    }
+    best.map_or_else(|| rounded(p), |(q, _)| q)
 }
 
 /// The place on the grid for a control point, near its own and near the tangents through its knots.
@@ -128,14 +145,22 @@ fn best(places: impl Iterator<Item = Point>, cost: impl Fn(Point) -> f64) -> Opt
     least.map(|(q, _)| q)
 }
 
-/// Takes out points that repeat the one before, and control points on their knots.
-fn without_repetition(contour: &mut Contour) {
-    loop {
-        let n = contour.len();
-        let repeats = |k: usize| n > 1 && contour[k].point == contour[(k + 1) % n].point;
-        let Some(k) = (0..n).find(|&k| repeats(k)) else { return };
-        // Of a knot and a control point the knot stays.
-        let next = (k + 1) % n;
-        contour.remove(if contour[k].on_curve { next } else { k });
+impl Rounded {
+    fn push(&mut self, point: Point, on_curve: bool, movable: bool) {
+        self.contour.push(ContourPoint { point, on_curve });
+        self.movable.push(movable);
+    }
+
+    /// Takes out points that repeat the one before, and control points on their knots.
+    fn drop_repetition(&mut self) {
+        loop {
+            let n = self.contour.len();
+            let repeats = |k: usize| n > 1 && self.contour[k].point == self.contour[(k + 1) % n].point;
+            let Some(k) = (0..n).find(|&k| repeats(k)) else { return };
+            // Of a knot and a control point the knot stays.
+            let gone = if self.contour[k].on_curve { (k + 1) % n } else { k };
+            self.contour.remove(gone);
+            self.movable.remove(gone);
+        }
     }
 }

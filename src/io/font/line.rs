@@ -4,11 +4,11 @@ use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use skrifa::MetadataProvider as _;
 
 use super::FontError;
+use super::compose::flattened;
 use super::contour::outline;
 use super::face::{Face, Source};
 use super::fill::{Filled, Sampling};
 use super::glyf::Glyph;
-use super::compose::flattened;
 use crate::io::svg::affine::Affine;
 use crate::io::svg::outline::Outline;
 use crate::io::svg::{Curves, Drawing, Page};

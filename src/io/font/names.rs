@@ -124,7 +124,8 @@ impl Names {
     /// The name in English, or in the first language there is.
     fn get(&self, name: u16) -> Option<String> {
         let all = || self.records.iter().filter(|r| r.name == name && r.is_text());
-        let english = all().find(|r| (r.platform, r.language) == (3, 0x409)).or_else(|| all().find(|r| r.language == 0));
+        let english =
+            all().find(|r| (r.platform, r.language) == (3, 0x409)).or_else(|| all().find(|r| r.language == 0));
         english.or_else(|| all().next()).map(Record::text)
     }
 
@@ -168,10 +169,17 @@ impl Names {
     pub fn rename(&mut self, family: &str, version: &str) -> Result<(), FontError> {
         let old = self.summary();
         let error = |text: String| Err(FontError::Name(text));
-        if family.trim().is_empty() || family.chars().any(char::is_control) || family.chars().count() > LONGEST_POSTSCRIPT {
-            return error("the family needs a name of at most 63 characters in one line: give one with --family".to_owned());
+        if family.trim().is_empty()
+            || family.chars().any(char::is_control)
+            || family.chars().count() > LONGEST_POSTSCRIPT
+        {
+            return error(
+                "the family needs a name of at most 63 characters in one line: give one with --family".to_owned(),
+            );
         }
-        let folded = |name: &str| -> String { name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect() };
+        let folded = |name: &str| -> String {
+            name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+        };
         if folded(family) == folded(&old.family) || self.get(FAMILY).is_some_and(|f| folded(&f) == folded(family)) {
             return error(format!("\"{family}\" is the name of the original: choose another with --family"));
         }

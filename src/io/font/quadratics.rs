@@ -69,10 +69,12 @@ fn controls(curve: &Curve, sources: &Sources, from: f64, to: f64, accuracy: f64)
                 // Cusps and loops: by halves of a parameter that need not join smoothly.
                 None => part.to_quads(accuracy).map(|(_, _, q)| Point::new(q.p1.x, q.p1.y)).collect(),
             };
-            let is_spline = spline.first().zip(spline.last()).is_some_and(|(s, e)| {
-                (s.x, s.y) == (part.p0.x, part.p0.y) && (e.x, e.y) == (part.p3.x, part.p3.y)
-            });
-            let mut controls = if is_spline && spline.len() > 2 { spline[1..spline.len() - 1].to_vec() } else { spline };
+            let is_spline = spline
+                .first()
+                .zip(spline.last())
+                .is_some_and(|(s, e)| (s.x, s.y) == (part.p0.x, part.p0.y) && (e.x, e.y) == (part.p3.x, part.p3.y));
+            let mut controls =
+                if is_spline && spline.len() > 2 { spline[1..spline.len() - 1].to_vec() } else { spline };
             if to < from {
                 controls.reverse();
             }

@@ -15,7 +15,8 @@ use super::deviation::deviation;
 use super::face::{Face, Source};
 use super::fill::{Filled, Sampling};
 use super::glyf::{self, Composite, Glyph};
-use super::{grid, quadratics, trace};
+use super::grid::{self, Rounded};
+use super::{polish, quadratics, trace};
 use crate::plane::{BoundaryIndex, Region};
 
 /// A result nearer to the outline than this part of the tolerance is the outline: nothing moved.
@@ -231,11 +232,11 @@ impl Worker<'_> {
             Err(reason) => return Done::refused(reason),
         };
         let depth = |g: u16| result(g).ok().and_then(|d| d.nesting).map_or(1, |(_, depth)| depth + 1);
-        let nesting = (composite.components.len(), composite.components.iter().map(|c| depth(c.glyph)).max().unwrap_or(1));
+        let nesting =
+            (composite.components.len(), composite.components.iter().map(|c| depth(c.glyph)).max().unwrap_or(1));
         let components = || composite.components.iter();
-        let is_as_it_was = components().all(|c| {
-            result(c.glyph).is_ok_and(|d| matches!(d.fate, Fate::Blank | Fate::Kept | Fate::Refused(_)))
-        });
+        let is_as_it_was = components()
+            .all(|c| result(c.glyph).is_ok_and(|d| matches!(d.fate, Fate::Blank | Fate::Kept | Fate::Refused(_))));
         let old_box = Some(glyf::whole_box(&original));
         let kept_as = |fate, written: Vec<Contour>, deviation| {
             let mut data = composite.stripped.clone();
@@ -262,7 +263,8 @@ impl Worker<'_> {
         if let Ok(assembled) = assembled
             && !hangs_on_numbers
         {
-            let off = self.off(&assembled, &region, &index);
+            let drawn = Filled::of_contours(&assembled, self.options.sampling).region;
+            let off = self.off(drawn, &region, &index);
             if off <= self.options.tolerance {
                 return kept_as(Fate::ChangedByComponents, assembled, off);
             }
@@ -287,9 +289,8 @@ impl Worker<'_> {
         Ok(if is_unmoved { Outcome::Unmoved } else { Outcome::Moved(result, after) })
     }
 
-    /// How far contours are from the exact result.
-    fn off(&self, contours: &[Contour], exact: &Region, index: &BoundaryIndex) -> f64 {
-        let written = Filled::of_contours(contours, self.options.sampling).region;
+    /// How far the outline `written` is from the exact result.
+    fn off(&self, written: Region, exact: &Region, index: &BoundaryIndex) -> f64 {
         let written_index = BoundaryIndex::new(&written);
         deviation((&written, &written_index), (exact, index), self.face.units_per_em())
     }
@@ -310,12 +311,22 @@ impl Worker<'_> {
                 grid::contour(&knots, index)
             };
             // What rounding has flattened encloses nothing.
-            let contours: Vec<Contour> = pieces.iter().map(contour).filter(|c| c.len() > 2).collect();
-            let off = self.off(&contours, exact, index);
-            if best.as_ref().is_none_or(|(least, _)| off < *least) {
-                best = Some((off, contours));
+            let mut rounded: Vec<Rounded> = pieces.iter().map(contour).filter(|c| c.contour.len() > 2).collect();
+            let mut try_out = |rounded: &[Rounded]| {
+                let contours: Vec<Contour> = rounded.iter().map(|r| r.contour.clone()).collect();
+                // Rounding may let parts overlap that nearly touch: the lines are compared, not what they fill.
+                let drawn = Filled::lines_of_contours(&contours, self.options.sampling);
+                let off = self.off(drawn, exact, index);
+                if best.as_ref().is_none_or(|(least, _)| off < *least) {
+                    best = Some((off, contours));
+                }
+                off <= self.options.tolerance
+            };
+            if try_out(&rounded) {
+                break;
             }
-            if off <= self.options.tolerance {
+            rounded.iter_mut().for_each(|r| polish::polish(r, index, self.options.tolerance));
+            if try_out(&rounded) {
                 break;
             }
         }

@@ -12,9 +12,9 @@ use super::{FontError, glyf};
 /// Tables that do not fit new outlines: instructions and what they are made from, widths and heights of instructed glyphs,
 /// bitmaps of the old ones, signatures, outlines in another format.
 const DROPPED: [Tag; 26] = [
-    *b"fpgm", *b"prep", *b"cvt ", *b"hdmx", *b"LTSH", *b"VDMX", *b"DSIG", *b"EBDT", *b"EBLC", *b"EBSC", *b"bdat", *b"bloc",
-    *b"TSI0", *b"TSI1", *b"TSI2", *b"TSI3", *b"TSI5", *b"TSIB", *b"TSID", *b"TSIJ", *b"TSIP", *b"TSIS", *b"TSIV", *b"TTFA",
-    *b"CFF ", *b"CFF2",
+    *b"fpgm", *b"prep", *b"cvt ", *b"hdmx", *b"LTSH", *b"VDMX", *b"DSIG", *b"EBDT", *b"EBLC", *b"EBSC", *b"bdat",
+    *b"bloc", *b"TSI0", *b"TSI1", *b"TSI2", *b"TSI3", *b"TSI5", *b"TSIB", *b"TSID", *b"TSIJ", *b"TSIP", *b"TSIS",
+    *b"TSIV", *b"TTFA", *b"CFF ", *b"CFF2",
 ];
 
 /// How much `head.fontRevision` is raised: names tell three decimals.
@@ -30,6 +30,10 @@ const SMOOTH: u16 = 0x000A;
 const RESTRICTED: u16 = 0x0002;
 const LICENCE_BITS: u16 = 0x000F;
 
+/// Half the diagonal of a cell of the grid of whole units: as far may a corner be from the nearest place that a font can hold,
+/// whatever the tolerance. Of a thousand units in an em that is more than the default one.
+pub const GRID_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
 /// What was done to a font.
 #[derive(Clone, Debug)]
 pub struct Restyled {
@@ -39,7 +43,9 @@ pub struct Restyled {
     pub fates: Vec<Fate>,
     /// The largest distance between what was written and the exact result, and of which glyph, in font units.
     pub deviation: (f64, u16),
-    /// Glyphs whose distance exceeds the tolerance.
+    /// Glyphs whose distance exceeds the tolerance, but not what rounding to whole units may take ([`GRID_DISTANCE`]).
+    pub coarse: Vec<u16>,
+    /// Glyphs whose distance exceeds both.
     pub beyond: Vec<u16>,
     /// What it was called.
     pub before: FontNames,
@@ -95,18 +101,27 @@ pub fn restyle(
     let maxp = face.sfnt.required(b"maxp", 6)?;
     tables.insert(*b"maxp", new_maxp(maxp, &done));
     tables.insert(*b"gasp", [1u16, 1, 0xFFFF, SMOOTH].iter().flat_map(|n| n.to_be_bytes()).collect());
-    let too_long = || FontError::Name("the names are too long for the table 'name': choose a shorter --family".to_owned());
+    let too_long =
+        || FontError::Name("the names are too long for the table 'name': choose a shorter --family".to_owned());
     tables.insert(*b"name", names.to_bytes().ok_or_else(too_long)?);
     // Of equals the first.
-    let worst = done.iter().enumerate().fold((0.0, 0), |worst: (f64, u16), (glyph, d)| {
-        if d.deviation > worst.0 { (d.deviation, glyph as u16) } else { worst }
-    });
-    let beyond = done.iter().enumerate().filter(|(_, d)| d.deviation > options.tolerance).map(|(k, _)| k as u16);
+    let worst =
+        done.iter().enumerate().fold(
+            (0.0, 0),
+            |worst: (f64, u16), (glyph, d)| {
+                if d.deviation > worst.0 { (d.deviation, glyph as u16) } else { worst }
+            },
+        );
+    let limit = options.tolerance.max(GRID_DISTANCE);
+    let with = |is: &dyn Fn(f64) -> bool| -> Vec<u16> {
+        done.iter().enumerate().filter(|(_, d)| is(d.deviation)).map(|(k, _)| k as u16).collect()
+    };
     Ok(Restyled {
         bytes: sfnt::write(&tables),
         fates: done.iter().map(|d| d.fate).collect(),
         deviation: worst,
-        beyond: beyond.collect(),
+        coarse: with(&|off| off > options.tolerance && off <= limit),
+        beyond: with(&|off| off > limit),
         before,
         after: names.summary(),
         fs_type,
@@ -150,9 +165,8 @@ fn new_head(head: &[u8], done: &[Done], revision: f64, long: bool) -> Vec<u8> {
     head[4..8].copy_from_slice(&((revision * 65536.0).round() as i32).to_be_bytes());
     let flags = u16_at(&head, 16).unwrap_or(0) & !INSTRUCTED;
     put_u16(&mut head, 16, flags);
-    let all = done.iter().filter_map(shown).reduce(|a, b| {
-        [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
-    });
+    let all =
+        done.iter().filter_map(shown).reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]);
     for (k, side) in all.unwrap_or_default().into_iter().enumerate() {
         put_u16(&mut head, 36 + 2 * k, side as u16);
     }
@@ -213,7 +227,8 @@ fn new_maxp(maxp: &[u8], done: &[Done]) -> Vec<u8> {
     let mut table = 0x0001_0000u32.to_be_bytes().to_vec();
     table.extend(&maxp[4..6]);
     let points = |d: &Done| d.written.iter().map(Vec::len).sum::<usize>();
-    let largest = |of: &dyn Fn(&Done) -> usize| done.iter().map(of).max().unwrap_or(0).min(usize::from(u16::MAX)) as u16;
+    let largest =
+        |of: &dyn Fn(&Done) -> usize| done.iter().map(of).max().unwrap_or(0).min(usize::from(u16::MAX)) as u16;
     let of_simple = |f: fn(&Done) -> usize| move |d: &Done| if d.nesting.is_none() { f(d) } else { 0 };
     let of_composite = |f: fn(&Done) -> usize| move |d: &Done| if d.nesting.is_some() { f(d) } else { 0 };
     let numbers = [

@@ -22,7 +22,11 @@ pub(super) enum PieceKind {
     Line,
     Arc(Arc),
     /// The curve of this number in the sources, from parameter to parameter; backwards where they fall.
-    Curve { number: u32, from: f64, to: f64 },
+    Curve {
+        number: u32,
+        from: f64,
+        to: f64,
+    },
 }
 
 /// Looks up which curve a vertex is a sample of.

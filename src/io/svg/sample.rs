@@ -296,8 +296,13 @@ mod tests {
     fn sampled(commands: Vec<Command>, curves: Curves) -> (Vec<Ring>, Sources) {
         let outline = Outline { subpaths: vec![Subpath { start: Point::origin(), commands, closed: true }] };
         let mut sources = Sources::default();
-        let rings =
-            rings(&outline, &Affine::IDENTITY, Sampling { tolerance: 1e-3, curves, meetings: Meetings::Curves, known: None }, 0, &mut sources);
+        let rings = rings(
+            &outline,
+            &Affine::IDENTITY,
+            Sampling { tolerance: 1e-3, curves, meetings: Meetings::Curves, known: None },
+            0,
+            &mut sources,
+        );
         (rings, sources)
     }
 
