@@ -435,6 +435,44 @@ fn damaged_glyphs_stay_and_are_named() {
 }
 
 #[test]
+fn no_damage_to_a_font_ends_in_a_panic() {
+    let good = file(&tables());
+    let radius = Radius::new(R).unwrap();
+    let open = |region: &Region| Some(rolling::open(region, radius, Topology::Keep).region);
+    let options = RestyleOptions { sampling: Sampling::new(EM, R), tolerance: 0.5, threads: 1 };
+    let mut state = 1u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    let (mut done, mut refused) = (0, 0);
+    for _ in 0..1500 {
+        let mut bytes = good.clone();
+        for _ in 0..=random(3) {
+            let at = random(bytes.len());
+            bytes[at] = [0, 1, 0x7F, 0x80, 0xFF, random(256) as u8][random(6)];
+        }
+        if random(8) == 0 {
+            bytes.truncate(random(good.len()));
+        }
+        match Face::parse(&bytes, None).and_then(|face| {
+            let _ = font::line(&face, "LBdxs", Sampling::new(EM, R), 10.0);
+            font::restyle(&face, "Other", &open, &options, &|_| {})
+        }) {
+            Ok(restyled) => {
+                done += 1;
+                assert!(Face::parse(&restyled.bytes, None).is_ok());
+            }
+            Err(error) => {
+                refused += 1;
+                assert!(!error.to_string().is_empty());
+            }
+        }
+    }
+    assert!(done > 200 && refused > 200, "{done} {refused}");
+}
+
+#[test]
 fn a_specimen_is_a_picture() {
     let (folder, font) = folder(&tables());
     let sheet = folder.path().join("sheet.png");

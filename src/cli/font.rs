@@ -152,7 +152,7 @@ mod with_text {
         output::write_together(&files)?;
         let report = Report::new(args, radius.get(), em, tolerance, restyled);
         match args.format {
-            FormatArg::Text => output::say(&report.lines()),
+            FormatArg::Text => output::say(&report.lines(&face)),
             FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
         }
         let failed = !report.refused.is_empty() || !report.beyond_tolerance.is_empty();
@@ -226,7 +226,8 @@ mod with_text {
             }
         }
 
-        fn lines(&self) -> String {
+        fn lines(&self, face: &Face) -> String {
+            let listed = |glyphs: &[u16]| listed(glyphs, face);
             let mut text = format!(
                 "\"{}\" -> \"{}\" by {} of {} font units: {} glyphs: {} changed, {} by their components, {} kept, {} blank\n\
                  largest distance to the exact outlines {:.3} font units (glyph {}), tolerance {}\n",
@@ -240,7 +241,7 @@ mod with_text {
                 self.kept,
                 self.blank,
                 self.largest_deviation_font_units,
-                self.largest_deviation_glyph,
+                face.glyph_label(self.largest_deviation_glyph),
                 self.tolerance_font_units,
             );
             if !self.dropped_tables.is_empty() {
@@ -264,7 +265,7 @@ mod with_text {
                 );
             }
             for refused in self.refused.iter().take(SHOWN) {
-                text += &format!("NOT CHANGED: glyph {}: {}\n", refused.glyph, refused.reason);
+                text += &format!("NOT CHANGED: glyph {}: {}\n", face.glyph_label(refused.glyph), refused.reason);
             }
             if self.refused.len() > SHOWN {
                 text += &format!("NOT CHANGED: {} more glyphs\n", self.refused.len() - SHOWN);
@@ -288,8 +289,8 @@ mod with_text {
         if more > 0 { format!("{shown}... ({more} characters more: --format json shows all)") } else { shown }
     }
 
-    fn listed(glyphs: &[u16]) -> String {
-        let named: Vec<String> = glyphs.iter().take(SHOWN).map(u16::to_string).collect();
+    fn listed(glyphs: &[u16], face: &Face) -> String {
+        let named: Vec<String> = glyphs.iter().take(SHOWN).map(|g| face.glyph_label(*g)).collect();
         let more = glyphs.len().saturating_sub(SHOWN);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         format!("{} {}{more}", if glyphs.len() == 1 { "glyph" } else { "glyphs" }, named.join(", "))

@@ -18,6 +18,9 @@ pub struct SpecimenRow {
 const MARGIN: f64 = 0.5;
 const LEADING: f64 = 1.35;
 
+/// Higher pictures are none.
+const HIGHEST: f64 = 65_536.0;
+
 /// More room between rows than between the two lines of one.
 const BETWEEN_ROWS: f64 = 0.45;
 
@@ -39,7 +42,7 @@ pub fn specimen(rows: &[SpecimenRow], units_per_em: f64, size: u32) -> Result<Ve
     let scale = f64::from(size) / (bounds.width() + 2.0 * MARGIN * em);
     let row_height = (2.0 * LEADING + BETWEEN_ROWS) * em;
     let height = scale * (row_height * rows.len() as f64 + 2.0 * MARGIN * em);
-    if !(height < 65_536.0) {
+    if height >= HIGHEST {
         return Err(PreviewError::Size { width: size, height: height as u32 });
     }
     let mut canvas = Canvas::new(f64::from(size), height)?;

@@ -50,16 +50,14 @@ impl FromStr for FontLength {
     fn from_str(text: &str) -> Result<FontLength, ParseFontLengthError> {
         let error = || ParseFontLengthError { text: text.to_owned() };
         let lower = text.trim().to_ascii_lowercase();
-        let units: [(&str, fn(f64) -> FontLength); 4] = [
-            ("em/1000", FontLength::Mille),
-            ("em", FontLength::Ems),
-            ("u", FontLength::Units),
-            ("", FontLength::Units),
-        ];
-        let (digits, unit) =
-            units.iter().find_map(|(unit, make)| Some((lower.strip_suffix(unit)?, make))).ok_or_else(error)?;
-        let number = digits.trim().parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(error)?;
-        Ok(unit(number))
+        let unit = ["em/1000", "em", "u"].into_iter().find(|unit| lower.ends_with(unit)).unwrap_or("");
+        let digits = lower[..lower.len() - unit.len()].trim();
+        let number = digits.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(error)?;
+        Ok(match unit {
+            "em/1000" => FontLength::Mille(number),
+            "em" => FontLength::Ems(number),
+            _ => FontLength::Units(number),
+        })
     }
 }
 

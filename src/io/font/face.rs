@@ -27,7 +27,7 @@ pub struct Face<'a> {
 
 enum Glyphs<'a> {
     TrueType { glyf: &'a [u8], offsets: Vec<usize> },
-    Cff(OutlineGlyphCollection<'a>),
+    Cff(Box<OutlineGlyphCollection<'a>>),
 }
 
 /// Which outlines a font has.
@@ -89,7 +89,7 @@ impl<'a> Face<'a> {
             }
             Glyphs::TrueType { glyf, offsets }
         } else if sfnt.tables.contains_key(b"CFF ") || sfnt.tables.contains_key(b"CFF2") {
-            Glyphs::Cff(reference.outline_glyphs())
+            Glyphs::Cff(Box::new(reference.outline_glyphs()))
         } else {
             return Err(FontError::NoOutlines);
         };
@@ -117,6 +117,16 @@ impl<'a> Face<'a> {
     /// Whether it has a glyph for a character.
     pub fn has_glyph(&self, c: char) -> bool {
         self.reference.charmap().map(c).is_some_and(|glyph| glyph.to_u32() != 0)
+    }
+
+    /// The number of a glyph with the first character that it stands for: `36 (A)`.
+    pub fn glyph_label(&self, glyph: u16) -> String {
+        let stands_for = |&(_, g): &(u32, GlyphId)| g.to_u32() == u32::from(glyph);
+        let character = self.reference.charmap().mappings().find(stands_for).and_then(|(c, _)| char::from_u32(c));
+        match character.filter(|c| !c.is_control() && !c.is_whitespace()) {
+            Some(c) => format!("{glyph} ({c})"),
+            None => glyph.to_string(),
+        }
     }
 
     /// Which outlines it has.

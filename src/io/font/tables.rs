@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use skrifa::MetadataProvider as _;
+
 use super::contour::Contour;
 use super::face::{Face, OutlineFormat, bearing_at};
 use super::names::{FontNames, Names};
@@ -101,6 +103,11 @@ pub fn restyle(
     let maxp = face.sfnt.required(b"maxp", 6)?;
     tables.insert(*b"maxp", new_maxp(maxp, &done));
     tables.insert(*b"gasp", [1u16, 1, 0xFFFF, SMOOTH].iter().flat_map(|n| n.to_be_bytes()).collect());
+    if let Some(post) = tables.get_mut(b"post")
+        && let Some(named) = with_glyph_names(post, face)
+    {
+        *post = named;
+    }
     let too_long =
         || FontError::Name("the names are too long for the table 'name': choose a shorter --family".to_owned());
     tables.insert(*b"name", names.to_bytes().ok_or_else(too_long)?);
@@ -249,4 +256,31 @@ fn new_maxp(maxp: &[u8], done: &[Done]) -> Vec<u8> {
     ];
     numbers.iter().for_each(|n| table.extend(n.to_be_bytes()));
     table
+}
+
+/// The table `post` with the names of the glyphs, where they stood in the table `CFF `, which is gone.
+fn with_glyph_names(post: &[u8], face: &Face) -> Option<Vec<u8>> {
+    const NAMELESS: u32 = 0x0003_0000;
+    const NAMED: u32 = 0x0002_0000;
+    /// Names before these stand for a list that all readers know.
+    const FIRST_OWN: u16 = 258;
+    const LONGEST: usize = 63;
+    if face.format() != OutlineFormat::Cff || u32_at(post, 0) != Some(NAMELESS) {
+        return None;
+    }
+    let names = face.reference.glyph_names();
+    let mut table = [&NAMED.to_be_bytes(), post.get(4..32)?, &face.glyph_count.to_be_bytes()].concat();
+    let mut strings = Vec::new();
+    for glyph in 0..face.glyph_count {
+        let name = names.get(skrifa::GlyphId::from(glyph))?;
+        let name = name.as_str();
+        if name.is_empty() || name.len() > LONGEST || !name.is_ascii() {
+            return None;
+        }
+        table.extend(FIRST_OWN.checked_add(glyph)?.to_be_bytes());
+        strings.push(name.len() as u8);
+        strings.extend(name.as_bytes());
+    }
+    table.extend(strings);
+    Some(table)
 }
