@@ -446,7 +446,7 @@ fn no_damage_to_a_font_ends_in_a_panic() {
         (state >> 33) as usize % below
     };
     let (mut done, mut refused) = (0, 0);
-    for _ in 0..1500 {
+    for _ in 0..500 {
         let mut bytes = good.clone();
         for _ in 0..=random(3) {
             let at = random(bytes.len());
@@ -469,7 +469,7 @@ fn no_damage_to_a_font_ends_in_a_panic() {
             }
         }
     }
-    assert!(done > 200 && refused > 200, "{done} {refused}");
+    assert!(done > 50 && refused > 50, "{done} {refused}");
 }
 
 #[test]
