@@ -23,6 +23,7 @@ const SMOOTH_ANGLE: f64 = 1e-3;
 
 /// Which commands meet smoothly.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(not(feature = "text"), allow(dead_code))]
 pub(in crate::io) enum Meetings {
     /// Two curves, where the angle between their tangents is that of rounding.
     Curves,
