@@ -3,12 +3,14 @@
 pub mod check;
 mod close;
 mod flow;
+mod font;
 mod input;
 mod lint;
 mod mill;
 mod output;
 mod preview;
 mod report;
+mod text;
 
 use std::process::ExitCode;
 
@@ -36,6 +38,10 @@ enum Command {
     Check(check::CheckArgs),
     /// Draw a picture of a drawing (SVG) or of a program (anything else)
     Preview(preview::PreviewArgs),
+    /// Set a line of text and close or open its letters
+    Text(text::TextArgs),
+    /// Restyle a whole font: all its glyphs closed or opened, in an installable TrueType font
+    Font(font::FontArgs),
     /// Look for what a controller would refuse and what a machine should not do, in anyone's program
     Lint(lint::LintArgs),
 }
@@ -70,6 +76,8 @@ pub fn main() -> ExitCode {
         Command::Flow(args) => flow::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Preview(args) => preview::run(&args),
+        Command::Text(args) => text::run(&args),
+        Command::Font(args) => font::run(&args),
         Command::Lint(args) => lint::run(&args),
     };
     match result {

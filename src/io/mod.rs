@@ -1,5 +1,7 @@
-//! Drawings in and out; grey pictures in.
+//! Drawings in and out; letters and fonts; grey pictures in.
 
+#[cfg(feature = "text")]
+pub mod font;
 pub mod picture;
 pub mod svg;
 mod unite;

@@ -1,4 +1,4 @@
-//! Pictures of programs, as they were read back, of outlines, and of the states of a flow: as a sheet or in motion.
+//! Pictures of programs, as they were read back, of outlines and fonts, and of the states of a flow: as a sheet or in motion.
 //!
 //! The same input gives the same bytes.
 
@@ -12,6 +12,7 @@ mod outline;
 mod palette;
 mod program;
 mod sheet;
+mod specimen;
 mod state;
 
 pub use animation::{Picture, animation};
@@ -20,6 +21,7 @@ pub use frame::{Frame, time_captions};
 pub use outline::outline;
 pub use program::{Scene, program};
 pub use sheet::DEFAULT_SIZE;
+pub use specimen::{SpecimenRow, specimen};
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

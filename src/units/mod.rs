@@ -3,11 +3,13 @@
 //! A length is parsed once, at the edge of the program, and resolved once against the drawing it is meant for.
 
 mod brief;
+mod font_length;
 mod length;
 mod radius;
 mod speed;
 
 pub use brief::Brief;
+pub use font_length::{FontLength, ParseFontLengthError};
 pub use length::{DrawingScale, Length, ParseLengthError, ResolveLengthError};
 pub use radius::{InvalidRadius, Radius};
 pub use speed::{ParseSpeedError, Speed};

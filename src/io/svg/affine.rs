@@ -4,7 +4,7 @@ use crate::plane::{Point, Vector};
 
 /// x' = a x + c y + e, y' = b x + d y + f.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Affine {
+pub(in crate::io) struct Affine {
     pub a: f64,
     pub b: f64,
     pub c: f64,

@@ -8,7 +8,7 @@ use super::affine::Affine;
 
 /// Part of an ellipse. Angles are those of the parameter (eccentric), in SVG's sense (positive turns x towards y).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct EllipticArc {
+pub(in crate::io) struct EllipticArc {
     pub center: Point,
     /// Radii along the axes of the ellipse, positive.
     pub rx: f64,
@@ -163,7 +163,7 @@ impl EllipticArc {
 
 /// The half axes of an ellipse in root units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ImageAxes {
+pub(in crate::io) struct ImageAxes {
     pub first: f64,
     pub second: f64,
     /// Direction of the first.

@@ -19,7 +19,7 @@ const MAX_AT_A_PLACE: usize = 16;
 
 /// The curves of a drawing, to be met again in another.
 #[derive(Debug)]
-pub(super) struct Known<'a> {
+pub(in crate::io) struct Known<'a> {
     sources: &'a Sources,
     /// Number of the curve and of the sample for every place.
     samples: HashMap<(u64, u64), Vec<(u32, u32)>>,

@@ -13,7 +13,7 @@
 //! Colours and opacity (other than none) do not matter: a white shape is as solid as a black one, and does not cut a hole
 //! into what lies below it (subtract it in the drawing program). Masks, filters, images and markers are not applied.
 
-mod affine;
+pub(super) mod affine;
 mod animate;
 mod collect;
 mod document;
@@ -25,11 +25,11 @@ mod known;
 mod leftovers;
 mod locate;
 mod options;
-mod outline;
+pub(super) mod outline;
 mod part;
 mod placement;
 mod rough;
-mod sample;
+pub(super) mod sample;
 mod shape;
 mod stroke;
 mod thin;
@@ -53,7 +53,7 @@ use affine::Affine;
 use collect::{Collection, Collector, Item};
 use document::Source;
 use known::Known;
-use sample::Sampling;
+use sample::{Meetings, Sampling};
 use viewport::UnitSize;
 
 /// Reads an SVG file.
@@ -92,7 +92,7 @@ fn read_with(bytes: &[u8], options: &ReadOptions, other: Option<&Drawing>) -> Re
     leftovers::report(&source, &mut collection)?;
     let known = other.map(Known::new);
     let tolerance = other.map_or(options.flatten * extent(&collection), |other| other.chord_tolerance);
-    let sampling = Sampling { tolerance, curves: options.curves, known: known.as_ref() };
+    let sampling = Sampling { tolerance, curves: options.curves, meetings: Meetings::Curves, known: known.as_ref() };
     let (region, sources) = fill(&mut collection, sampling);
     if region.is_empty() {
         return Err(ReadError::NothingFilled { found: collection.found, warnings: collection.warnings });

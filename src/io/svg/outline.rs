@@ -7,7 +7,7 @@ use super::elliptic::EllipticArc;
 
 /// One drawing command with its end point; it starts where the one before ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Command {
+pub(in crate::io) enum Command {
     Line(Point),
     Quadratic(Point, Point),
     Cubic(Point, Point, Point),
@@ -25,7 +25,7 @@ impl Command {
 
 /// A run of commands without lifting the pen.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Subpath {
+pub(in crate::io) struct Subpath {
     pub start: Point,
     pub commands: Vec<Command>,
     pub closed: bool,
@@ -33,7 +33,7 @@ pub(super) struct Subpath {
 
 /// All subpaths of an element.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Outline {
+pub(in crate::io) struct Outline {
     pub subpaths: Vec<Subpath>,
 }
 

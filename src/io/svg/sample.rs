@@ -21,12 +21,24 @@ const MAX_SAMPLES: f64 = 65_536.0;
 /// four digits keep within it, and a turn so small removes no visible corner.
 const SMOOTH_ANGLE: f64 = 1e-3;
 
+/// Which commands meet smoothly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(not(feature = "text"), allow(dead_code))]
+pub(in crate::io) enum Meetings {
+    /// Two curves, where the angle between their tangents is that of rounding.
+    Curves,
+    /// Any two commands, where the angle is at most this many radians: the tangents of letters are known to whole font
+    /// units only, and their curves run into straight stems.
+    All(f64),
+}
+
 /// How to sample.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sampling<'a> {
+pub(in crate::io) struct Sampling<'a> {
     /// Largest distance between chord and curve, root user units.
     pub tolerance: f64,
     pub curves: Curves,
+    pub meetings: Meetings,
     /// Curves whose samples are to be met again.
     pub known: Option<&'a Known<'a>>,
 }
@@ -40,7 +52,7 @@ impl Sampling<'_> {
 }
 
 /// The rings of `outline` under `affine`, open subpaths closed as a fill closes them.
-pub(super) fn rings(
+pub(in crate::io) fn rings(
     outline: &Outline,
     affine: &Affine,
     sampling: Sampling,
@@ -121,9 +133,14 @@ fn ring(subpath: &Subpath, affine: &Affine, sampling: Sampling, element: u32, so
     for (index, command) in subpath.commands.iter().enumerate() {
         let to = affine.apply_y_up(command.end());
         let at = pen.ring.vertices.len() - 1;
-        let tangents = draw(command, affine, sampling, from, to, &mut pen);
+        let mut tangents = draw(command, affine, sampling, from, to, &mut pen);
+        if let (Command::Line(_), Meetings::All(_)) = (command, sampling.meetings)
+            && from != to
+        {
+            tangents = Some((to - from, to - from));
+        }
         if let (Some(a), Some((b, _))) = (before, tangents)
-            && is_smooth(a, b)
+            && is_smooth(a, b, sampling.meetings)
             && !polygon
         {
             pen.ring.vertices[at].joint = Joint::Smooth;
@@ -137,7 +154,7 @@ fn ring(subpath: &Subpath, affine: &Affine, sampling: Sampling, element: u32, so
         }
         from = to;
     }
-    close(&mut pen, first, before.zip(first_tangent).is_some_and(|(a, b)| is_smooth(a, b)));
+    close(&mut pen, first, before.zip(first_tangent).is_some_and(|(a, b)| is_smooth(a, b, sampling.meetings)));
     pen.ring
 }
 
@@ -161,8 +178,12 @@ fn close(pen: &mut Pen, first: VertexId, smooth: bool) {
     }
 }
 
-fn is_smooth(a: Vector, b: Vector) -> bool {
-    a.dot(&b) > 0.0 && a.perp(&b).abs() <= SMOOTH_ANGLE * a.dot(&b)
+fn is_smooth(a: Vector, b: Vector, meetings: Meetings) -> bool {
+    let angle = match meetings {
+        Meetings::Curves => SMOOTH_ANGLE,
+        Meetings::All(angle) => angle,
+    };
+    a.dot(&b) > 0.0 && a.perp(&b).abs() <= angle * a.dot(&b)
 }
 
 /// Draws one command; the tangents at its ends, where it is a curve of chords.
@@ -276,8 +297,13 @@ mod tests {
     fn sampled(commands: Vec<Command>, curves: Curves) -> (Vec<Ring>, Sources) {
         let outline = Outline { subpaths: vec![Subpath { start: Point::origin(), commands, closed: true }] };
         let mut sources = Sources::default();
-        let rings =
-            rings(&outline, &Affine::IDENTITY, Sampling { tolerance: 1e-3, curves, known: None }, 0, &mut sources);
+        let rings = rings(
+            &outline,
+            &Affine::IDENTITY,
+            Sampling { tolerance: 1e-3, curves, meetings: Meetings::Curves, known: None },
+            0,
+            &mut sources,
+        );
         (rings, sources)
     }
 
@@ -323,7 +349,7 @@ mod tests {
     fn circles_are_four_arcs_with_exact_points_or_a_polygon() {
         let outline = Outline::ellipse(Point::new(0.1, 0.2), 0.3, 0.3);
         let mut sources = Sources::default();
-        let sampling = Sampling { tolerance: 1e-3, curves: Curves::Arcs, known: None };
+        let sampling = Sampling { tolerance: 1e-3, curves: Curves::Arcs, meetings: Meetings::Curves, known: None };
         let arcs = &rings(&outline, &Affine::IDENTITY, sampling, 0, &mut sources)[0];
         let expected = [(0.1 + 0.3, -0.2), (0.1, -(0.2 + 0.3)), (0.1 - 0.3, -0.2), (0.1, -(0.2 - 0.3))];
         let arc = Arc { center: Point::new(0.1, -0.2), radius: 0.3, turn: Turn::Right };
