@@ -13,6 +13,7 @@ mod region;
 mod ring;
 mod segment;
 mod segment_distance;
+mod stretch;
 
 pub use bounds::Bounds;
 pub use chain_tree::ChainTree;
@@ -23,3 +24,4 @@ pub use region::{Region, TopologyCount};
 pub use ring::{Joint, Ring, Vertex, VertexId};
 pub use segment::{Arc, Link, Nearest, Segment, Turn};
 pub use segment_distance::Approach;
+pub use stretch::{InvalidStretch, LARGEST_ASPECT, Stretch, Stretched};

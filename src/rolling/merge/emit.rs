@@ -21,6 +21,8 @@ impl Attempt<'_> {
         if let Some(center) = self.centers[e as usize] {
             return center;
         }
+        // Of the two events of a crossing the first, whichever is asked.
+        let e = e.min(self.events[e as usize].twin);
         let event = self.events[e as usize];
         let carrier = |e: u32| -> Carrier { Locus::carrier(self.piece(e), self.region, self.r) };
         let roots = carrier(e).roots(&carrier(event.twin), SAME_CENTER * self.r);
