@@ -1,6 +1,7 @@
 //! The command line: arguments, one file a command, reports. Alone knows clap and terminals.
 
 pub mod check;
+mod clopen;
 mod close;
 mod input;
 mod lint;
@@ -29,6 +30,8 @@ enum Command {
     Close(close::CloseArgs),
     /// Remove what a disk cannot reach from inside: convex corners get the disk's radius, the rest stays
     Open(close::CloseArgs),
+    /// Close and open, one after the other: both bounds on curvature; the report says how much the order matters
+    Clopen(clopen::ClopenArgs),
     /// Compare a closed or opened drawing with an independent reference
     Check(check::CheckArgs),
     /// Draw a picture of a drawing (SVG) or of a program (anything else)
@@ -64,6 +67,7 @@ pub fn main() -> ExitCode {
         Command::Mill(args) => mill::run(&args),
         Command::Close(args) => close::run(&args, close::Operation::Close),
         Command::Open(args) => close::run(&args, close::Operation::Open),
+        Command::Clopen(args) => clopen::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Preview(args) => preview::run(&args),
         Command::Lint(args) => lint::run(&args),
