@@ -10,11 +10,11 @@ use crate::check::{Named, differences};
 /// The arguments.
 #[derive(Clone, Debug, Args)]
 pub(super) struct ClopenArgs {
-    #[command(flatten)]
-    shared: CloseArgs,
     /// What is done first
     #[arg(long, value_enum, default_value_t = Order::CloseOpen)]
     order: Order,
+    #[command(flatten)]
+    shared: CloseArgs,
 }
 
 /// `--order`.
