@@ -16,7 +16,7 @@ use crate::units::Radius;
 const STILL: f64 = 1e-7;
 
 /// Sagitta of flattened arcs in the symmetric difference, over the radius.
-const AREA_FLATNESS: f64 = 1e-5;
+pub(super) const AREA_FLATNESS: f64 = 1e-5;
 
 /// How far a change of topology is felt, over the radius: a disk that touches it reaches no further.
 const TOPOLOGY_REACH: f64 = 2.0;

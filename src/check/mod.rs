@@ -1,9 +1,10 @@
 //! A result against its reference, and what a result has lost of the part.
 //!
 //! [`compare`] measures; it believes neither side, and reports the reference's own error bound beside its numbers.
-//! [`lost_features`] names what a closing fills or an opening removes beyond rounding corners.
+//! [`differences`] says how much results differ from each other. [`lost_features`] names what a closing fills or an opening removes beyond rounding corners.
 
 mod compare;
+mod differ;
 mod farthest;
 mod features;
 mod inside;
@@ -11,7 +12,9 @@ mod moved;
 mod report;
 
 pub use compare::compare;
+pub use differ::{Difference, Named, differences};
 pub use features::{LostFeature, SHALLOWEST_FILLING, SLOT_DEPTH, SLOT_FULLNESS, lost_features};
+pub(crate) use report::finite_or_word;
 pub use report::{Area, Containment, Distance, Kept, Report, SmallestRadius, Topology};
 
 /// A place for reports: x and y in the units of the drawing.

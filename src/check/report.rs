@@ -56,7 +56,7 @@ pub struct Distance {
 }
 
 /// JSON has no number for what is infinite, and `null` would say that nothing was measured.
-fn finite_or_word<S: serde::Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn finite_or_word<S: serde::Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
     if value.is_infinite() { to.serialize_str("infinite") } else { to.serialize_f64(*value) }
 }
 

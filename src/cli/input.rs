@@ -7,7 +7,8 @@ use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 
 use super::output;
-use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, ReadOptions, Strokes};
+use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, Parts, ReadOptions, Selection, Strokes, Warning};
+use crate::plane::Stretch;
 use crate::units::{DrawingScale, Length};
 
 /// The bytes of a file, or of standard input where the name is `-`.
@@ -80,6 +81,25 @@ pub(super) struct ReadArgs {
     curves: CurvesArg,
 }
 
+/// Which elements of a drawing a command works on.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Elements")]
+pub(super) struct SelectionArgs {
+    /// Work on this element alone, by its id, or on all that is in this group; may be given more than once. The other
+    /// elements are written unchanged
+    #[arg(long = "only", value_name = "ID")]
+    only: Vec<String>,
+    /// Leave this element, or all that is in this group, unchanged; may be given more than once
+    #[arg(long = "except", value_name = "ID")]
+    except: Vec<String>,
+}
+
+impl SelectionArgs {
+    pub(super) fn selection(&self) -> Selection {
+        Selection { only: self.only.clone(), except: self.except.clone() }
+    }
+}
+
 /// `--curves`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum CurvesArg {
@@ -107,6 +127,30 @@ impl ReadArgs {
         Ok(Self::with_warnings(path, drawing))
     }
 
+    /// Reads a drawing in parts, for work in the frame of `stretch` where it is given.
+    ///
+    /// # Errors
+    /// As [`ReadArgs::read`], and where the selection means nothing for the drawing.
+    pub(super) fn read_parts(&self, path: &Path, selection: &Selection, stretch: Option<&Stretch>) -> Result<Parts> {
+        let mut options = self.options()?;
+        if let Some(stretch) = stretch {
+            // Circles are none in the frame; and what strays from a curve may stray farther there, or when it is back.
+            options.flatten /= stretch.largest_factor();
+            if options.curves == Curves::Arcs {
+                options.curves = Curves::Chords;
+            }
+        }
+        let bytes = read_bytes(path)?;
+        let read = if selection.is_everything() {
+            svg::read(&bytes, &options).map(Parts::from)
+        } else {
+            svg::read_parts(&bytes, &options, selection)
+        };
+        let parts = read.with_context(|| path.display().to_string())?;
+        Self::say_warnings(path, &parts.chosen().warnings);
+        Ok(parts)
+    }
+
     /// Reads a drawing that was made from `other`, so that what was kept has the same vertices in both.
     ///
     /// # Errors
@@ -118,10 +162,14 @@ impl ReadArgs {
     }
 
     fn with_warnings(path: &Path, drawing: Drawing) -> Drawing {
-        for warning in &drawing.warnings {
+        Self::say_warnings(path, &drawing.warnings);
+        drawing
+    }
+
+    fn say_warnings(path: &Path, warnings: &[Warning]) {
+        for warning in warnings {
             output::say(&format!("clopen: {}: {warning}\n", path.display()));
         }
-        drawing
     }
 
     fn options(&self) -> Result<ReadOptions> {

@@ -1,6 +1,7 @@
 //! The command line: arguments, one file a command, reports. Alone knows clap and terminals.
 
 pub mod check;
+mod clopen;
 mod close;
 mod flow;
 mod font;
@@ -34,6 +35,8 @@ enum Command {
     Open(close::CloseArgs),
     /// Let outlines flow in time towards their closing, opening or both, and show the states on the way
     Flow(Box<flow::FlowArgs>),
+    /// Close and open, one after the other: both bounds on curvature; the report says how much the order matters
+    Clopen(clopen::ClopenArgs),
     /// Compare a closed or opened drawing with an independent reference
     Check(check::CheckArgs),
     /// Draw a picture of a drawing (SVG) or of a program (anything else)
@@ -74,6 +77,7 @@ pub fn main() -> ExitCode {
         Command::Close(args) => close::run(&args, close::Operation::Close),
         Command::Open(args) => close::run(&args, close::Operation::Open),
         Command::Flow(args) => flow::run(&args),
+        Command::Clopen(args) => clopen::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Preview(args) => preview::run(&args),
         Command::Text(args) => text::run(&args),

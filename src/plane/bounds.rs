@@ -1,6 +1,6 @@
 //! Axis-parallel bounding boxes.
 
-use super::Point;
+use super::{Point, Vector};
 
 /// An axis-parallel box; empty where `min` exceeds `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,6 +94,25 @@ impl Bounds {
     /// Length of the diagonal, 0 for an empty box.
     pub fn diagonal(&self) -> f64 {
         self.width().hypot(self.height())
+    }
+
+    /// The displacement from the origin to a place near the box, so that taking it off rounds no coordinate of a point in
+    /// the box; zero for a box that is near enough to the origin.
+    pub fn exact_shift(&self) -> Vector {
+        if self.is_empty() {
+            return Vector::zeros();
+        }
+        let axis = |min: f64, max: f64| {
+            let (center, extent) = (0.5 * (min + max), max - min);
+            // From here on every coordinate keeps its last digit when a multiple of a large power of two is taken off.
+            // A flat drawing has no extent to round to.
+            if center.abs() < 4.0 * extent || !center.is_finite() || extent <= 0.0 {
+                return 0.0;
+            }
+            let grain = extent.max(f64::MIN_POSITIVE).log2().ceil().exp2();
+            (center / grain).round() * grain
+        };
+        Vector::new(axis(self.min.x, self.max.x), axis(self.min.y, self.max.y))
     }
 
     /// The middle of the box.

@@ -15,6 +15,7 @@ mod region;
 mod ring;
 mod segment;
 mod segment_distance;
+mod stretch;
 
 pub use bounds::Bounds;
 pub use chain_tree::ChainTree;
@@ -27,3 +28,4 @@ pub use region::{Region, TopologyCount, place_along_curve};
 pub use ring::{Joint, Ring, Vertex, VertexId};
 pub use segment::{Arc, Link, Nearest, Segment, Turn};
 pub use segment_distance::Approach;
+pub use stretch::{InvalidStretch, LARGEST_ASPECT, Stretch, Stretched};

@@ -131,14 +131,18 @@ impl Finder<'_> {
         if !self.boxes[i].overlaps(&self.boxes[j]) {
             return;
         }
-        let (p, q) = (&self.locus.pieces[i], &self.locus.pieces[j]);
-        if p.ring == q.ring {
-            let ring = &self.locus.rings[p.ring as usize];
+        let pieces = &self.locus.pieces;
+        if pieces[i].ring == pieces[j].ring {
+            let ring = &self.locus.rings[pieces[i].ring as usize];
             // Neighbours meet at their joint and nowhere else.
             if j == i + 1 || (i == ring.start as usize && j + 1 == ring.end as usize) {
                 return;
             }
         }
+        // Computed from one of the two, whichever ring comes first: with other rings around them they may change places.
+        let place = |k: usize| (pieces[k].start.x, pieces[k].start.y);
+        let (i, j) = if place(j) < place(i) { (j, i) } else { (i, j) };
+        let (p, q) = (&pieces[i], &pieces[j]);
         let near = self.near;
         let mut found = |x: Point| {
             if is_far_outside(p, x, near) || is_far_outside(q, x, near) {

@@ -17,6 +17,7 @@ mod locus;
 mod loops;
 mod merge;
 mod scan;
+mod solid;
 mod track;
 mod trim;
 
@@ -25,6 +26,7 @@ use std::f64::consts::PI;
 use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Segment, Vector, Vertex};
 use crate::units::Radius;
 use keep::Kept;
+use solid::Solid;
 
 /// What closing means where components come near each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -52,11 +54,22 @@ pub struct Outcome {
 
 /// The closing of `region` by a disk of radius `radius`, in the units of the region.
 pub fn close(region: &Region, radius: Radius, topology: Topology) -> Outcome {
+    closed(region, radius, topology, region.bounds())
+}
+
+/// The closing of `region`, which is part of a drawing in the box `around`: parts of one drawing are computed alike, so
+/// that an outline that two of them share stays shared to the last bit, when one is closed and the other opened.
+///
+/// For that the rings of the result begin elsewhere than those of the region, and come in another order.
+pub fn close_within(region: &Region, radius: Radius, topology: Topology, around: &Bounds) -> Outcome {
+    closed(&in_order(region), radius, topology, region.bounds().union(*around))
+}
+
+fn closed(region: &Region, radius: Radius, topology: Topology, bounds: Bounds) -> Outcome {
     let r = radius.get();
     // Far from the origin coordinates have few digits left for a small radius. The shift is exact both ways for every
     // vertex that stays.
-    let bounds = region.bounds();
-    let shift = exact_shift(&bounds);
+    let shift = bounds.exact_shift();
     let farthest = bounds.min.coords.abs().max().max(bounds.max.coords.abs().max());
     let resolution = if farthest.is_finite() { f64::EPSILON * farthest } else { 0.0 };
     let run = |region: &Region| match topology {
@@ -70,6 +83,22 @@ pub fn close(region: &Region, radius: Radius, topology: Topology) -> Outcome {
     outcome.region = moved_back(&outcome.region, shift);
     outcome.differences.iter_mut().for_each(|p| *p += shift);
     outcome
+}
+
+/// The region with rings that begin at their lowest vertex of those farthest left, in the order of these vertices: where a
+/// file begins them must not show in the last digits of a result, or parts that fit would not fit any more.
+fn in_order(region: &Region) -> Region {
+    let before = |a: &Vertex, b: &Vertex| a.point.x.total_cmp(&b.point.x).then(a.point.y.total_cmp(&b.point.y));
+    let mut rings = region.rings.clone();
+    for ring in &mut rings {
+        let first = (0..ring.len()).min_by(|&i, &j| before(&ring.vertices[i], &ring.vertices[j]));
+        ring.vertices.rotate_left(first.unwrap_or(0));
+    }
+    rings.sort_by(|a, b| match (a.vertices.first(), b.vertices.first()) {
+        (Some(a), Some(b)) => before(a, b),
+        (a, b) => a.is_some().cmp(&b.is_some()),
+    });
+    Region::new(rings)
 }
 
 /// The region moved by `shift`. Where that rounds the ends of a short arc past each other, which would make it a whole
@@ -90,8 +119,16 @@ fn moved_back(region: &Region, shift: Vector) -> Region {
 
 /// The opening of `region`: the closing of what is empty.
 pub fn open(region: &Region, radius: Radius, topology: Topology) -> Outcome {
-    let outcome = close(&region.reversed(), radius, topology);
+    reversed(close(&region.reversed(), radius, topology))
+}
+
+fn reversed(outcome: Outcome) -> Outcome {
     Outcome { region: outcome.region.reversed(), ..outcome }
+}
+
+/// The opening of `region`, which is part of a drawing in the box `around`; see [`close_within`].
+pub fn open_within(region: &Region, radius: Radius, topology: Topology, around: &Bounds) -> Outcome {
+    reversed(close_within(&region.reversed(), radius, topology, around))
 }
 
 fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
@@ -136,9 +173,8 @@ fn poking_out(input: &Region, result: &Region, r: f64, resolution: f64) -> usize
     const CONTAINED: f64 = 1e-9;
     const MOST_SAMPLES: f64 = 256.0;
     let slack = CONTAINED * r + merge::ROUNDING_STEPS * resolution;
-    let index = BoundaryIndex::new(result);
-    let far_winding = i32::from(input.area() < 0.0);
-    let is_out = |p: Point| index.winding_number(p) + far_winding <= 0 && !index.is_nearer(p, slack);
+    let solid = Solid::closed(result, input);
+    let is_out = |p: Point| solid.is_outside(p) && !solid.index.is_nearer(p, slack);
     // A cut into a link is of the size of the disk, or its end is out.
     let samples = |s: &Segment| (16.0 * s.length() / r).ceil().clamp(2.0, MOST_SAMPLES) as usize;
     input.segments().filter(|s| (0..samples(s)).any(|k| is_out(s.point_at(k as f64 / samples(s) as f64)))).count()
@@ -183,22 +219,4 @@ impl Scanned {
             self.still.push(scan.still);
         }
     }
-}
-
-/// A displacement that brings the region near the origin without rounding any coordinate, or zero.
-fn exact_shift(bounds: &Bounds) -> Vector {
-    if bounds.is_empty() {
-        return Vector::zeros();
-    }
-    let axis = |min: f64, max: f64| {
-        let (center, extent) = (0.5 * (min + max), max - min);
-        // From here on every coordinate keeps its last digit when a multiple of a large power of two is taken off.
-        // A flat drawing has no extent to round to.
-        if center.abs() < 4.0 * extent || !center.is_finite() || extent <= 0.0 {
-            return 0.0;
-        }
-        let grain = extent.max(f64::MIN_POSITIVE).log2().ceil().exp2();
-        (center / grain).round() * grain
-    };
-    Vector::new(axis(bounds.min.x, bounds.max.x), axis(bounds.min.y, bounds.max.y))
 }

@@ -54,7 +54,8 @@ impl Filled {
     /// The rings of an outline, which may cross.
     fn rings(&mut self, outline: &Outline, affine: &Affine, sampling: Sampling, name: &str) -> Vec<Ring> {
         let element = self.sources.elements.len() as u32;
-        self.sources.elements.push(Place { element: name.to_owned(), id: None, line: 1 });
+        let place = Place { element: name.to_owned(), id: None, line: 1 };
+        self.sources.elements = self.sources.elements.iter().cloned().chain([place]).collect();
         let sampling = sample::Sampling {
             tolerance: sampling.tolerance,
             curves: Curves::Arcs,

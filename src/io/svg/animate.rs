@@ -13,7 +13,7 @@ use crate::plane::{Bounds, Region, Ring};
 
 use super::drawing::Drawing;
 use super::thin::thinned;
-use super::write::PathWriter;
+use super::write::{PathWriter, write_link};
 
 /// A state of a drawing in an animation.
 #[derive(Clone, Debug)]
@@ -111,7 +111,9 @@ fn parts(region: &Region) -> Vec<Vec<Ring>> {
 
 fn path_data(writer: &PathWriter, rings: &[Ring]) -> String {
     let mut data = String::new();
-    rings.iter().filter(|r| r.len() > 1).for_each(|ring| writer.ring(ring, &mut data));
+    for ring in rings.iter().filter(|r| r.len() > 1) {
+        writer.ring(ring, |i, _, data| write_link(&ring.segment(i), data), &mut data);
+    }
     data
 }
 

@@ -14,6 +14,7 @@ use super::error::{Found, MAX_COORDINATE, Place, ReadError, Warning, WarningKind
 use super::locate::{Locator, best};
 use super::options::Strokes;
 use super::outline::Outline;
+use super::placement::Placement;
 use super::rough::single_precision;
 use super::stroke;
 
@@ -37,12 +38,22 @@ pub(super) struct Clip {
     pub clips: Vec<usize>,
 }
 
+/// An element at one of its places.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Instance {
+    pub node: NodeId,
+    /// The `use` elements that show it, the innermost first.
+    pub uses: Vec<NodeId>,
+}
+
 /// All that a drawing fills.
 #[derive(Debug, Default)]
 pub(super) struct Collection {
     pub items: Vec<Item>,
     pub clips: Vec<Clip>,
     pub elements: Vec<Place>,
+    /// Where each of the elements stands in the document.
+    pub instances: Vec<Instance>,
     pub warnings: Vec<Warning>,
     pub found: Found,
     /// The ids that usvg's tree has.
@@ -54,9 +65,9 @@ pub(super) struct Collector<'a, 'input> {
     strokes: Strokes,
     collection: Collection,
     locator: Locator<'a, 'input>,
-    elements: HashMap<NodeId, u32>,
+    elements: HashMap<Instance, u32>,
     /// Elements with a stroke beside their fill that is not taken.
-    fill_alone: HashSet<u32>,
+    fill_alone: HashSet<NodeId>,
     warned: HashSet<(NodeId, std::mem::Discriminant<WarningKind>)>,
     /// How many dashes the strokes have so far.
     dashes: f64,
@@ -199,7 +210,7 @@ impl<'a, 'input> Collector<'a, 'input> {
         if !located.exact {
             self.warn(node, WarningKind::SinglePrecision);
         }
-        let element = self.element(node);
+        let element = self.element(node, located.uses);
         let affine = context.outer.then_inner(&located.affine);
         self.paint(path, element, located.outline, affine, context, items)
     }
@@ -217,7 +228,7 @@ impl<'a, 'input> Collector<'a, 'input> {
             }
             return Ok(());
         }
-        let element = self.element(self.source.document.root_element());
+        let element = self.element(self.source.document.root_element(), Vec::new());
         let outline = Rc::new(single_precision(path.data(), false));
         let affine = context.outer.then_inner(&context.rough);
         self.paint(path, element, outline, affine, context, items)
@@ -265,7 +276,7 @@ impl<'a, 'input> Collector<'a, 'input> {
                 self.collection.warnings.push(Warning { place, kind: WarningKind::StrokeOnly });
             }
         } else {
-            self.fill_alone.insert(element);
+            self.fill_alone.extend(self.collection.instances.get(element as usize).map(|i| i.node));
         }
         Ok(())
     }
@@ -284,12 +295,13 @@ impl<'a, 'input> Collector<'a, 'input> {
         let named = source.elements(text.id()).next();
         // Under a `use` without its name: the text that stands there.
         let texts = || source.document.descendants().filter(|n| n.tag_name().name() == "text");
-        let node = named.or_else(|| texts().find(|n| best(&self.locator.placements(*n), &context.rough).is_some()));
+        let node = named.or_else(|| texts().find(|n| self.placement(*n, &context.rough).is_some()));
         let Some(node) = node.or_else(|| texts().next()) else { return Ok(()) };
         let before = items.len();
-        let exact = best(&self.locator.placements(node), &context.rough).map_or(context.rough, |(affine, _)| affine);
-        let kind = if context.kind == Kind::Clip { Kind::Clip } else { Kind::Text(self.element(node)) };
-        let outer = context.outer.then_inner(&exact);
+        let place = self.placement(node, &context.rough);
+        let Placement { affine, uses } = place.unwrap_or(Placement { affine: context.rough, uses: Vec::new() });
+        let kind = if context.kind == Kind::Clip { Kind::Clip } else { Kind::Text(self.element(node, uses)) };
+        let outer = context.outer.then_inner(&affine);
         let inside = Context { kind, outer, rough: Affine::IDENTITY, clips: context.clips };
         self.children(text.flattened(), inside, items)?;
         let words: String = text.chunks().iter().map(|c| c.text()).collect();
@@ -306,11 +318,23 @@ impl<'a, 'input> Collector<'a, 'input> {
         }
     }
 
-    fn element(&mut self, node: Node) -> u32 {
-        *self.elements.entry(node.id()).or_insert_with(|| {
-            self.collection.elements.push(self.source.place(node));
-            self.collection.elements.len() as u32 - 1
-        })
+    /// The exact place of `node` that agrees best with a rough one.
+    fn placement(&mut self, node: Node<'a, 'input>, rough: &Affine) -> Option<Placement> {
+        let places = self.locator.placements(node);
+        best(places.iter().map(|p| &p.affine), rough).map(|(k, _)| places[k].clone())
+    }
+
+    /// The number of the element at the place that `uses` give it.
+    fn element(&mut self, node: Node, uses: Vec<NodeId>) -> u32 {
+        let instance = Instance { node: node.id(), uses };
+        if let Some(&number) = self.elements.get(&instance) {
+            return number;
+        }
+        let number = self.collection.elements.len() as u32;
+        self.collection.elements.push(self.source.place(node));
+        self.collection.instances.push(instance.clone());
+        self.elements.insert(instance, number);
+        number
     }
 
     /// The element of the group, or of the first shape in it.

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use usvg::roxmltree::{self, Document, Node, NodeId, ParsingOptions};
 
+use super::collect::Instance;
 use super::error::{Place, ReadError};
 use super::shape::SHAPES;
 
@@ -131,6 +132,25 @@ impl<'a, 'input> Source<'a, 'input> {
     pub fn uses(&self, node: Node) -> impl Iterator<Item = Node<'a, 'input>> + '_ {
         let uses = node.attribute("id").and_then(|id| self.used_by.get(id));
         uses.into_iter().flatten().filter_map(|&n| self.document.get_node(n))
+    }
+
+    /// All that is named in the file, in order.
+    pub fn ids(&self) -> Vec<&'a str> {
+        let named = self.document.descendants().filter_map(|n| n.attribute("id"));
+        named.filter(|id| !id.is_empty() && !id.starts_with(self.prefix)).collect()
+    }
+
+    /// An element and what is around it at its place, up to the root: where a reference shows it, around the reference.
+    pub fn around(&self, instance: &Instance) -> Vec<Node<'a, 'input>> {
+        let mut uses = instance.uses.iter().filter_map(|&user| self.document.get_node(user)).peekable();
+        let mut way = Vec::new();
+        let mut at = self.document.get_node(instance.node);
+        while let Some(node) = at.filter(Node::is_element) {
+            way.push(node);
+            let user = uses.next_if(|user| self.uses(node).any(|other| other == *user));
+            at = user.or_else(|| node.parent_element());
+        }
+        way
     }
 
     pub fn place(&self, node: Node) -> Place {

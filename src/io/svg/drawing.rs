@@ -1,11 +1,16 @@
 //! A drawing as read: the region, and where each of its vertices came from.
 
-use crate::plane::{Arc, Point, Region, VertexId};
+use std::sync::Arc;
+
+use crate::plane::{self, Point, Region, VertexId};
 use crate::units::DrawingScale;
 
 use super::error::{Place, Warning};
 use super::options::Curves;
 use super::viewport::Page;
+
+/// The attribute by which an element asks for a radius of its own, for itself and for all that is in it.
+pub const RADIUS_ATTRIBUTE: &str = "data-clopen-radius";
 
 /// A drawing.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +88,7 @@ pub enum CurveKind {
         /// Whether it runs clockwise as seen on the page.
         sweep: bool,
         /// The circle, where it is one and kept as arcs: its links are this one.
-        arc: Option<Arc>,
+        arc: Option<plane::Arc>,
     },
 }
 
@@ -94,7 +99,7 @@ impl CurveKind {
             CurveKind::Quadratic(c) => CurveKind::Quadratic(c),
             CurveKind::Cubic(c, d) => CurveKind::Cubic(d, c),
             CurveKind::Elliptic { radii, rotation, angle, sweep, arc } => {
-                let arc = arc.map(|arc| Arc { turn: arc.turn.opposite(), ..arc });
+                let arc = arc.map(|arc| plane::Arc { turn: arc.turn.opposite(), ..arc });
                 CurveKind::Elliptic { radii, rotation, angle, sweep: !sweep, arc }
             }
         }
@@ -104,8 +109,11 @@ impl CurveKind {
 /// Where the vertices of a drawing come from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sources {
-    /// The elements that have vertices.
-    pub elements: Vec<Place>,
+    /// The elements that have vertices, one for each place where a `use` shows it.
+    pub elements: Arc<[Place]>,
+    /// For each of the elements what [`RADIUS_ATTRIBUTE`] says, as written: its own, or else that of the nearest element
+    /// around it (where a `use` shows it, around that).
+    pub radii: Arc<[Option<String>]>,
     /// One for each [`VertexId`].
     pub vertices: Vec<VertexSource>,
     /// The curve commands.
@@ -121,5 +129,10 @@ impl Sources {
     /// The element that a vertex belongs to.
     pub fn place(&self, id: VertexId) -> Option<&Place> {
         self.elements.get(self.vertex(id)?.element as usize)
+    }
+
+    /// The radius that the element of a vertex asks for, as written.
+    pub fn radius(&self, id: VertexId) -> Option<&str> {
+        self.radii.get(self.vertex(id)?.element as usize)?.as_deref()
     }
 }

@@ -13,8 +13,8 @@ pub(in crate::io) struct EllipticArc {
     /// Radii along the axes of the ellipse, positive.
     pub rx: f64,
     pub ry: f64,
-    /// Direction of the first axis, radians.
-    pub rotation: f64,
+    /// Direction of the first axis in degrees, as the file has it.
+    pub degrees: f64,
     /// Parameter at the start.
     pub start: f64,
     /// Parameter travelled, signed, at most a full turn.
@@ -37,7 +37,7 @@ const CIRCLE_TOLERANCE: f64 = 1e-12;
 impl EllipticArc {
     /// The quarter of an unrotated ellipse that starts `quarter` quarter turns from the x axis and ends at `to`.
     pub fn quarter(center: Point, rx: f64, ry: f64, quarter: usize, to: Point) -> EllipticArc {
-        EllipticArc { center, rx, ry, rotation: 0.0, start: quarter as f64 * FRAC_PI_2, sweep: FRAC_PI_2, to }
+        EllipticArc { center, rx, ry, degrees: 0.0, start: quarter as f64 * FRAC_PI_2, sweep: FRAC_PI_2, to }
     }
 
     /// The arc of SVG's `A` command (SVG 2, implementation notes B.2.4); `None` where it is a straight line or nothing.
@@ -53,8 +53,8 @@ impl EllipticArc {
         if from == to || !rx.is_normal() || !ry.is_normal() {
             return None;
         }
-        let rotation = if rx == ry { 0.0 } else { (rotation_degrees % 360.0).to_radians() };
-        let (sin, cos) = rotation.sin_cos();
+        let degrees = if rx == ry { 0.0 } else { rotation_degrees % 360.0 };
+        let (sin, cos) = degrees.to_radians().sin_cos();
         let half = (from - to) / 2.0;
         // The half chord in the frame where the ellipse is the unit circle.
         let u = Vector::new((cos * half.x + sin * half.y) / rx, (cos * half.y - sin * half.x) / ry);
@@ -91,12 +91,12 @@ impl EllipticArc {
         } else if !sweep && angle > 0.0 {
             angle -= TAU;
         }
-        Some(EllipticArc { center, rx, ry, rotation, start, sweep: angle, to })
+        Some(EllipticArc { center, rx, ry, degrees, start, sweep: angle, to })
     }
 
     /// The image of the two half axes, so that a point is centre + first cos t + second sin t, y up.
     fn axes(&self, affine: &Affine) -> (Vector, Vector) {
-        let (sin, cos) = self.rotation.sin_cos();
+        let (sin, cos) = self.degrees.to_radians().sin_cos();
         let first = affine.apply_vector(Vector::new(cos, sin) * self.rx);
         let second = affine.apply_vector(Vector::new(-sin, cos) * self.ry);
         (Vector::new(first.x, -first.y), Vector::new(second.x, -second.y))
@@ -131,7 +131,7 @@ impl EllipticArc {
     /// Half axes of the image and the direction of the first one in degrees, y down as SVG writes it.
     pub fn image_axes(&self, affine: &Affine) -> ImageAxes {
         if *affine == Affine::IDENTITY {
-            return ImageAxes { first: self.rx, second: self.ry, degrees: self.rotation.to_degrees() };
+            return ImageAxes { first: self.rx, second: self.ry, degrees: self.degrees };
         }
         // Rytz: the parameter at which the half axes of the image are reached.
         let (u, v) = self.axes(affine);

@@ -21,10 +21,32 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "<{}", self.element)?;
         if let Some(id) = &self.id {
-            let rest = if id.chars().nth(LONGEST_ID).is_some() { "..." } else { "" };
-            write!(f, " id=\"{}{rest}\"", id.chars().take(LONGEST_ID).collect::<String>())?;
+            write!(f, " id=\"{}\"", short(id))?;
         }
         write!(f, "> on line {}", self.line)
+    }
+}
+
+/// As much of an id as is quoted.
+fn short(id: &str) -> String {
+    let rest = if id.chars().nth(LONGEST_ID).is_some() { "..." } else { "" };
+    id.chars().take(LONGEST_ID).collect::<String>() + rest
+}
+
+fn meant(nearest: Option<&str>) -> String {
+    match nearest {
+        Some(id) => format!(": did you mean \"{}\"?", short(id)),
+        None => ", nor any with an id like it: see the ids in your drawing program's object properties".to_owned(),
+    }
+}
+
+fn nothing_chosen(id: Option<&str>) -> String {
+    match id {
+        Some(id) => format!(
+            "the element with id=\"{}\" has no filled shape in it that is shown: fill it, or choose another",
+            short(id)
+        ),
+        None => "no element is left to work on: choose fewer with --except, or others with --only".to_owned(),
     }
 }
 
@@ -113,6 +135,32 @@ pub enum ReadError {
         path: PathBuf,
         /// Why.
         reason: std::io::Error,
+    },
+    /// An `id` that is not in the file.
+    #[error("the drawing has no element with id=\"{}\"{}", short(id), meant(nearest.as_deref()))]
+    UnknownId {
+        /// What was asked for.
+        id: String,
+        /// The most like it that there is.
+        nearest: Option<String>,
+    },
+    /// One `id` both chosen and left out.
+    #[error("\"{}\" is named by both --only and --except: leave one of them out", short(id))]
+    ContradictorySelection {
+        /// Which.
+        id: String,
+    },
+    /// Nothing to work on.
+    #[error("{}", nothing_chosen(id.as_deref()))]
+    NothingChosen {
+        /// What was chosen and has nothing filled in it; none where everything was left out.
+        id: Option<String>,
+    },
+    /// No outline in an element whose area was asked for.
+    #[error("the element with id=\"{}\" has no area: name a closed shape, or a group of such", short(id))]
+    NoArea {
+        /// Which.
+        id: String,
     },
     /// An option has no meaning.
     #[error("{name} is {value}: it must be a finite number above zero")]

@@ -8,7 +8,7 @@ use usvg::roxmltree::{Node, NodeId};
 use super::affine::Affine;
 use super::document::Source;
 use super::outline::Outline;
-use super::placement::placements;
+use super::placement::{Placement, placements};
 use super::rough::{looks_like, single_precision};
 use super::shape::{self, Shape, attribute};
 
@@ -16,7 +16,7 @@ use super::shape::{self, Shape, attribute};
 pub(super) struct Locator<'a, 'input> {
     source: &'a Source<'a, 'input>,
     shapes: HashMap<NodeId, Option<Rc<Shape>>>,
-    placements: HashMap<NodeId, Rc<Vec<Affine>>>,
+    placements: HashMap<NodeId, Rc<Vec<Placement>>>,
     /// The exact maps of elements that can have a clip path.
     clipped: Option<Rc<Vec<Affine>>>,
     reusable: Option<Rc<Vec<Node<'a, 'input>>>>,
@@ -25,6 +25,8 @@ pub(super) struct Locator<'a, 'input> {
 /// The element that a path of usvg stands for.
 pub(super) struct Located<'a, 'input> {
     pub node: Node<'a, 'input>,
+    /// The references that show it, the innermost first.
+    pub uses: Vec<NodeId>,
     pub outline: Rc<Outline>,
     pub affine: Affine,
     /// Whether outline and map are those of the file.
@@ -37,8 +39,8 @@ impl<'a, 'input> Locator<'a, 'input> {
         Locator { source, shapes: HashMap::new(), placements: HashMap::new(), clipped: None, reusable: None }
     }
 
-    /// All exact maps from the element to the root: one, or one for each `use`.
-    pub fn placements(&mut self, node: Node) -> Rc<Vec<Affine>> {
+    /// All exact places of the element: one, or one for each `use`.
+    pub fn placements(&mut self, node: Node<'a, 'input>) -> Rc<Vec<Placement>> {
         let source = self.source;
         self.placements.entry(node.id()).or_insert_with(|| Rc::new(placements(source, node))).clone()
     }
@@ -56,13 +58,13 @@ impl<'a, 'input> Locator<'a, 'input> {
                 let nodes = self.source.document.descendants().filter(|n| n.is_element()).filter(can_clip);
                 /// A drawing with more clipped groups than this gets the rough maps.
                 const MAX_GROUPS: usize = 4096;
-                let all = nodes.take(MAX_GROUPS).flat_map(|n| placements(self.source, n)).take(MAX_GROUPS).collect();
-                let all: Rc<Vec<Affine>> = Rc::new(all);
+                let places = nodes.take(MAX_GROUPS).flat_map(|n| placements(self.source, n)).take(MAX_GROUPS);
+                let all: Rc<Vec<Affine>> = Rc::new(places.map(|p| p.affine).collect());
                 self.clipped = Some(all.clone());
                 all
             }
         };
-        best(&candidates, rough).map_or(*rough, |(affine, _)| affine)
+        best(candidates.iter(), rough).map_or(*rough, |(k, _)| candidates[k])
     }
 
     /// The shapes that `use` can bring in.
@@ -92,15 +94,16 @@ impl<'a, 'input> Locator<'a, 'input> {
         if nodes.len() > 1 || path.id().is_empty() {
             nodes.retain(|node| self.shape(*node).is_none_or(|s| looks_like(&s.outline, path.data())));
         }
-        let mut chosen: Option<(Node, Affine, f64)> = None;
+        let mut chosen: Option<(Node, Placement, f64)> = None;
         for node in &nodes {
-            if let Some((affine, mismatch)) = best(&self.placements(*node), rough)
-                && chosen.is_none_or(|c| mismatch < c.2)
+            let places = self.placements(*node);
+            if let Some((k, mismatch)) = best(places.iter().map(|p| &p.affine), rough)
+                && chosen.as_ref().is_none_or(|c| mismatch < c.2)
             {
-                chosen = Some((*node, affine, mismatch));
+                chosen = Some((*node, places[k].clone(), mismatch));
             }
         }
-        let node = chosen.map(|c| c.0).or_else(|| source.elements(path.id()).next())?;
+        let node = chosen.as_ref().map(|c| c.0).or_else(|| source.elements(path.id()).next())?;
         let shape = self.shape(node);
         let is_round = matches!(node.tag_name().name(), "circle" | "ellipse");
         let exact = shape.is_some() && chosen.is_some();
@@ -109,12 +112,13 @@ impl<'a, 'input> Locator<'a, 'input> {
             Some(shape) => shape.outline.clone(),
             None => Rc::new(single_precision(path.data(), is_round)),
         };
-        Some(Located { node, outline, affine: chosen.map_or(*rough, |c| c.1), exact, cut_at })
+        let place = chosen.map_or(Placement { affine: *rough, uses: Vec::new() }, |c| c.1);
+        Some(Located { node, uses: place.uses, outline, affine: place.affine, exact, cut_at })
     }
 }
 
-/// The exact map that agrees best with the rough one, and how well; `None` where none agrees.
-pub(super) fn best(candidates: &[Affine], rough: &Affine) -> Option<(Affine, f64)> {
-    let rated = candidates.iter().map(|c| (*c, c.mismatch(rough))).filter(|c| c.1 <= 1.0);
+/// Which of the exact maps agrees best with the rough one, and how well; `None` where none agrees.
+pub(super) fn best<'m>(candidates: impl Iterator<Item = &'m Affine>, rough: &Affine) -> Option<(usize, f64)> {
+    let rated = candidates.map(|c| c.mismatch(rough)).enumerate().filter(|c| c.1 <= 1.0);
     rated.reduce(|a, b| if b.1 < a.1 { b } else { a })
 }

@@ -15,53 +15,51 @@
 
 pub(super) mod affine;
 mod animate;
+mod area;
 mod collect;
 mod document;
 mod drawing;
 mod elliptic;
 mod error;
+mod fill;
 mod fonts;
+mod gather;
 mod known;
 mod leftovers;
 mod locate;
+mod nearest;
 mod options;
 pub(super) mod outline;
 mod part;
+mod parts;
 mod placement;
 mod rough;
 pub(super) mod sample;
+mod selection;
 mod shape;
 mod stroke;
 mod thin;
 mod viewport;
 mod write;
 
-use std::collections::HashMap;
-
 pub use animate::{Still, animate};
-pub use drawing::{Curve, CurveKind, Drawing, Sources, VertexSource};
+pub use area::read_area;
+pub use drawing::{Curve, CurveKind, Drawing, RADIUS_ATTRIBUTE, Sources, VertexSource};
 pub use error::{Found, MAX_COORDINATE, Place, ReadError, Warning, WarningKind};
 pub use options::{Curves, DEFAULT_FLATTEN, ReadOptions, Strokes};
+pub use parts::{Part, Parts, read_parts};
+pub use selection::Selection;
 pub use viewport::Page;
-pub use write::write;
+pub use write::{write, write_parts};
 
-use crate::plane::{Region, Ring};
-use crate::units::MM_PER_INCH;
-
-use super::unite::{self, Rule};
-use affine::Affine;
-use collect::{Collection, Collector, Item};
-use document::Source;
-use known::Known;
-use sample::{Meetings, Sampling};
-use viewport::UnitSize;
+use gather::{Gathered, gather};
 
 /// Reads an SVG file.
 ///
 /// # Errors
 /// Where the file is broken or holds no filled shape; the error says where and what to try.
 pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Drawing, ReadError> {
-    read_with(bytes, options, None)
+    gather(bytes, options, None, whole)
 }
 
 /// Reads an SVG file that was made from `other`, to be compared with it: with the chord tolerance of `other` in place of
@@ -71,189 +69,15 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Drawing, ReadError> {
 /// # Errors
 /// As [`read`].
 pub fn read_alike(bytes: &[u8], options: &ReadOptions, other: &Drawing) -> Result<Drawing, ReadError> {
-    read_with(bytes, options, Some(other))
-}
-
-fn read_with(bytes: &[u8], options: &ReadOptions, other: Option<&Drawing>) -> Result<Drawing, ReadError> {
-    check_options(options)?;
-    let text = document::decode(bytes)?;
-    let plain = document::parse(text)?;
-    let (named, prefix) = document::with_ids(text, &plain);
-    let document = document::parse(&named)?;
-    let root = document.root_element();
-    let source = Source::new(&document, &prefix);
-    leftovers::refuse_huge(&source)?;
-    let page = Page::of_root(root);
-    let (tree, replaced) = fonts::tree(&document, options)?;
-    let tree = tree.map_err(|error| refusal(error, source.place(root).line))?;
-
-    let (group, outer) = below_root(&tree, root, &page);
-    let mut collection = Collector::new(&source, options.strokes).collect(group, outer)?;
-    leftovers::report(&source, &mut collection)?;
-    let known = other.map(Known::new);
-    let tolerance = other.map_or(options.flatten * extent(&collection), |other| other.chord_tolerance);
-    let sampling = Sampling { tolerance, curves: options.curves, meetings: Meetings::Curves, known: known.as_ref() };
-    let (region, sources) = fill(&mut collection, sampling);
-    if region.is_empty() {
-        return Err(ReadError::NothingFilled { found: collection.found, warnings: collection.warnings });
-    }
-    let mut warnings = collection.warnings;
-    let mut warn = |kind| warnings.push(Warning { place: source.place(root), kind });
-    replaced.into_iter().for_each(|(asked, taken)| warn(WarningKind::FontReplaced { asked, taken }));
-    if page.has_invalid_view_box() {
-        warn(WarningKind::InvalidViewBox { text: page.view_box.clone().unwrap_or_default() });
-    }
-    let unit = page.unit_size();
-    if unit == UnitSize::Uneven {
-        warn(WarningKind::UnevenScale);
-    }
-    warnings.sort_by_key(|w| w.place.line);
-    let mm_per_unit = match (options.width_mm, options.dpi, unit) {
-        (Some(width), _, _) => Some(width / region.bounds().width()),
-        (None, Some(dpi), _) => Some(MM_PER_INCH / dpi),
-        (None, None, UnitSize::Millimetres(mm)) => Some(mm),
-        (None, None, UnitSize::Unknown | UnitSize::Uneven) => None,
-    };
-    Ok(Drawing { region, mm_per_unit, page, curves: options.curves, chord_tolerance: tolerance, sources, warnings })
-}
-
-fn check_options(options: &ReadOptions) -> Result<(), ReadError> {
-    let given = [("flatten", Some(options.flatten)), ("--dpi", options.dpi), ("--width", options.width_mm)];
-    match given.iter().find(|(_, value)| value.is_some_and(|v| !(v.is_normal() && v > 0.0))) {
-        Some(&(name, Some(value))) => Err(ReadError::InvalidOption { name, value }),
-        _ => Ok(()),
-    }
-}
-
-fn refusal(error: usvg::Error, line: usize) -> ReadError {
-    match error {
-        usvg::Error::InvalidSize => ReadError::InvalidSize { line },
-        // What refers to each other grows beyond every limit.
-        usvg::Error::ElementsLimitReached | usvg::Error::ParsingFailed(usvg::roxmltree::Error::NodesLimitReached) => {
-            ReadError::TooLarge
-        }
-        other => ReadError::NotSvg { found: other.to_string() },
-    }
-}
-
-/// The group whose coordinates are those of the view box, and the map from them to the drawing's: the root's own
-/// transform, which usvg applies outside of the view box.
-fn below_root<'t>(tree: &'t usvg::Tree, root: usvg::roxmltree::Node, page: &Page) -> (&'t usvg::Group, Affine) {
-    let own = placement::transform(root).unwrap_or(Affine::IDENTITY);
-    let view = page.view_box().map(|[x, y, w, h]| svgtypes::ViewBox { x, y, w, h });
-    let fit = view.map_or(Affine::IDENTITY, |view| {
-        let (width, height) = (f64::from(tree.size().width()), f64::from(tree.size().height()));
-        placement::fit(view, width, height, page.aspect())
-    });
-    let outer = match fit.inverse() {
-        Some(inverse) if own != Affine::IDENTITY => inverse.then_inner(&own.then_inner(&fit)),
-        _ => Affine::IDENTITY,
-    };
-    let expected = own.then_inner(&fit);
-    match tree.root().children() {
-        [usvg::Node::Group(group)] if group.id().is_empty() && expected != Affine::IDENTITY => {
-            let is_fit = expected.mismatch(&group.transform().into()) <= 1.0;
-            (if is_fit { group } else { tree.root() }, outer)
-        }
-        _ => (tree.root(), outer),
-    }
-}
-
-/// The larger side of the largest shape.
-fn extent(collection: &Collection) -> f64 {
-    let extents = collection.items.iter().map(|item| {
-        let bounds = item.outline.bounds(&item.affine);
-        bounds.width().max(bounds.height())
-    });
-    extents.fold(0.0, f64::max)
+    gather(bytes, options, Some(other), whole)
 }
 
 /// All items united.
-fn fill(collection: &mut Collection, sampling: Sampling) -> (Region, Sources) {
-    let sources = Sources { elements: std::mem::take(&mut collection.elements), ..Sources::default() };
-    let mut filler = Filler { collection, sampling, sources, clips: HashMap::new() };
-    if sampling.tolerance <= 0.0 {
-        return (Region::default(), filler.sources);
+fn whole(gathered: Gathered) -> Result<Drawing, ReadError> {
+    let drawing = gathered.drawing(&gathered.collection.items);
+    if drawing.region.is_empty() {
+        return Err(gathered.nothing_filled());
     }
-    let items = &filler.collection.items;
-    let rings = filler.union(items);
-    (Region::new(rings), filler.sources)
-}
-
-struct Filler<'a> {
-    collection: &'a Collection,
-    sampling: Sampling<'a>,
-    sources: Sources,
-    clips: HashMap<usize, Vec<Ring>>,
-}
-
-impl Filler<'_> {
-    fn union(&mut self, items: &[Item]) -> Vec<Ring> {
-        // What is cut down to the same clip paths is cut at once.
-        let mut first_of: HashMap<&[usize], usize> = HashMap::new();
-        let mut groups: Vec<(&[usize], Vec<Vec<Ring>>)> = Vec::new();
-        for item in items {
-            let area = self.area(item);
-            let clips = item.clips.as_slice();
-            let at = *first_of.entry(clips).or_insert_with(|| {
-                groups.push((clips, Vec::new()));
-                groups.len() - 1
-            });
-            if !area.is_empty() {
-                groups[at].1.push(area);
-            }
-        }
-        let mut areas: Vec<Vec<Ring>> = Vec::new();
-        for (clips, group) in groups {
-            if clips.is_empty() {
-                areas.extend(group);
-            } else {
-                let area = united(group);
-                areas.push(self.within(area, clips));
-            }
-        }
-        areas.retain(|area| !area.is_empty());
-        united(areas)
-    }
-
-    /// What one item fills, clip paths aside.
-    fn area(&mut self, item: &Item) -> Vec<Ring> {
-        let rings = sample::rings(&item.outline, &item.affine, self.sampling, item.element, &mut self.sources);
-        let rule = match item.rule {
-            usvg::FillRule::NonZero => Rule::NonZero,
-            usvg::FillRule::EvenOdd => Rule::EvenOdd,
-        };
-        unite::resolve(rings, rule)
-    }
-
-    fn within(&mut self, mut area: Vec<Ring>, clips: &[usize]) -> Vec<Ring> {
-        for &clip in clips {
-            if area.is_empty() {
-                break;
-            }
-            area.extend(self.clip(clip));
-            area = unite::resolve(area, Rule::AtLeast(2));
-        }
-        area
-    }
-
-    fn clip(&mut self, index: usize) -> Vec<Ring> {
-        if let Some(rings) = self.clips.get(&index) {
-            return rings.clone();
-        }
-        let collection = self.collection;
-        let clip = &collection.clips[index];
-        let union = self.union(&clip.items);
-        let rings = self.within(union, &clip.clips);
-        self.clips.insert(index, rings.clone());
-        rings
-    }
-}
-
-fn united(mut areas: Vec<Vec<Ring>>) -> Vec<Ring> {
-    match areas.len() {
-        0 => Vec::new(),
-        1 => areas.remove(0),
-        _ => unite::resolve(areas.concat(), Rule::AtLeast(1)),
-    }
+    let mm_per_unit = gathered.mm_per_unit(drawing.region.bounds().width());
+    Ok(Drawing { mm_per_unit, warnings: gathered.collection.warnings, ..drawing })
 }

@@ -14,6 +14,8 @@ pub enum Curves {
     /// Circles and circular arcs stay arcs; all other curves become chords between samples.
     #[default]
     Arcs,
+    /// Everything becomes chords, and what is smooth stays smooth: for maps that make ellipses of circles.
+    Chords,
     /// Everything becomes chords, and every sample a corner: for comparison with tools that know polygons only.
     Polygon,
 }

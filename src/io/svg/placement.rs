@@ -6,7 +6,7 @@
 use std::str::FromStr;
 
 use svgtypes::{Align, AspectRatio};
-use usvg::roxmltree::Node;
+use usvg::roxmltree::{Node, NodeId};
 
 use super::affine::Affine;
 use super::document::Source;
@@ -18,49 +18,74 @@ const MAX_PLACES: usize = 4096;
 /// At most so many references lead from an element to the root: circular ones end here.
 const MAX_DEPTH: usize = 256;
 
-/// All maps from the coordinates of `node` to those of the root (or of the clip path that it belongs to).
-pub(super) fn placements(source: &Source, node: Node) -> Vec<Affine> {
-    let mut found = Vec::new();
-    climb(source, node, Affine::IDENTITY, 0, &mut found);
-    found
+/// One of the places of an element.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Placement {
+    /// From the element's coordinates to those of the root (or of the clip path that it belongs to).
+    pub affine: Affine,
+    /// The `use` elements on the way to the root, the innermost first.
+    pub uses: Vec<NodeId>,
 }
 
-/// `inside` maps the element's coordinates to those that hold within `node`, before its own transform.
-fn climb(source: &Source, node: Node, inside: Affine, depth: usize, found: &mut Vec<Affine>) {
-    if found.len() >= MAX_PLACES || depth > MAX_DEPTH {
-        return;
+/// All places of `node`.
+pub(super) fn placements(source: &Source, node: Node) -> Vec<Placement> {
+    let mut climber = Climber { source, uses: Vec::new(), found: Vec::new() };
+    climber.climb(node, Affine::IDENTITY, 0);
+    climber.found
+}
+
+struct Climber<'s, 'a, 'input> {
+    source: &'s Source<'a, 'input>,
+    uses: Vec<NodeId>,
+    found: Vec<Placement>,
+}
+
+impl<'a, 'input> Climber<'_, 'a, 'input> {
+    fn add(&mut self, affine: Affine) {
+        self.found.push(Placement { affine, uses: self.uses.clone() });
     }
-    let name = node.tag_name().name();
-    let is_root = node == source.document.root_element();
-    if is_root {
-        found.push(inside);
-        return;
-    }
-    let Some(own) = transform(node) else { return };
-    if name == "clipPath" {
-        found.push(own.then_inner(&inside));
-        return;
-    }
-    if name != "symbol"
-        && let Some(parent) = node.parent_element()
-    {
-        let inside = if name == "svg" { viewport(node, node).map(|v| v.then_inner(&inside)) } else { Some(inside) };
-        if let Some(inside) = inside {
-            climb(source, parent, own.then_inner(&inside), depth + 1, found);
+
+    /// `inside` maps the element's coordinates to those that hold within `node`, before its own transform.
+    fn climb(&mut self, node: Node<'a, 'input>, inside: Affine, depth: usize) {
+        let source = self.source;
+        if self.found.len() >= MAX_PLACES || depth > MAX_DEPTH {
+            return;
         }
-    }
-    for user in source.uses(node) {
-        let offset = || Some(Affine::translation(length(user, "x")?.unwrap_or(0.0), length(user, "y")?.unwrap_or(0.0)));
-        let Some(offset) = offset() else { continue };
-        let within = match name {
-            "symbol" => viewbox(user, node).map(|v| v.then_inner(&inside)),
-            // The size may be given by the reference or by what it refers to.
-            "svg" => viewport(node, if has_size(user) { user } else { node }).map(|v| v.then_inner(&inside)),
-            _ => Some(inside),
-        };
-        if let Some(within) = within {
-            let own = if name == "symbol" { Affine::IDENTITY } else { own };
-            climb(source, user, offset.then_inner(&own.then_inner(&within)), depth + 1, found);
+        let name = node.tag_name().name();
+        let is_root = node == source.document.root_element();
+        if is_root {
+            self.add(inside);
+            return;
+        }
+        let Some(own) = transform(node) else { return };
+        if name == "clipPath" {
+            self.add(own.then_inner(&inside));
+            return;
+        }
+        if name != "symbol"
+            && let Some(parent) = node.parent_element()
+        {
+            let inside = if name == "svg" { viewport(node, node).map(|v| v.then_inner(&inside)) } else { Some(inside) };
+            if let Some(inside) = inside {
+                self.climb(parent, own.then_inner(&inside), depth + 1);
+            }
+        }
+        for user in source.uses(node) {
+            let offset =
+                || Some(Affine::translation(length(user, "x")?.unwrap_or(0.0), length(user, "y")?.unwrap_or(0.0)));
+            let Some(offset) = offset() else { continue };
+            let within = match name {
+                "symbol" => viewbox(user, node).map(|v| v.then_inner(&inside)),
+                // The size may be given by the reference or by what it refers to.
+                "svg" => viewport(node, if has_size(user) { user } else { node }).map(|v| v.then_inner(&inside)),
+                _ => Some(inside),
+            };
+            if let Some(within) = within {
+                let own = if name == "symbol" { Affine::IDENTITY } else { own };
+                self.uses.push(user.id());
+                self.climb(user, offset.then_inner(&own.then_inner(&within)), depth + 1);
+                self.uses.pop();
+            }
         }
     }
 }

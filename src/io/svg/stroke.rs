@@ -65,7 +65,8 @@ fn to_kurbo(outline: &Outline, tolerance: f64) -> BezPath {
                 Command::Cubic(c, d, p) => path.curve_to(k(c), k(d), k(p)),
                 Command::Arc(arc) => {
                     let radii = kurbo::Vec2::new(arc.rx, arc.ry);
-                    let arc_path = kurbo::Arc::new(k(arc.center), radii, arc.start, arc.sweep, arc.rotation);
+                    let arc_path =
+                        kurbo::Arc::new(k(arc.center), radii, arc.start, arc.sweep, arc.degrees.to_radians());
                     arc_path.to_cubic_beziers(tolerance, |c, d, p| path.curve_to(c, d, p));
                 }
             }
@@ -112,7 +113,7 @@ fn round(from: Point, c: Point, d: Point, to: Point, radius: f64) -> Option<Elli
         if sweep * side > 0.0 && ((c - from).norm() - arm).abs() <= ALIKE * radius {
             let spoke = from - center;
             let start = spoke.y.atan2(spoke.x);
-            return Some(EllipticArc { center, rx: radius, ry: radius, rotation: 0.0, start, sweep, to });
+            return Some(EllipticArc { center, rx: radius, ry: radius, degrees: 0.0, start, sweep, to });
         }
     }
     None

@@ -13,10 +13,11 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use crate::plane::{Link, Point, Region, Ring, Segment, Vertex, VertexId};
+use crate::plane::{Link, Point, Region, Ring, Segment, Stretched, Turn, Vertex, VertexId};
 
 use super::drawing::{Curve, CurveKind, Drawing};
 use super::options::Curves;
+use super::parts::Parts;
 use super::viewport::Page;
 
 /// Arcs beyond this angle, in radians, are written in two halves: near half a turn the end points of an `A` command fix
@@ -25,26 +26,74 @@ const LARGEST_ARC: f64 = 0.8 * PI;
 
 /// The region as an SVG file with the drawing's page and user units.
 pub fn write(drawing: &Drawing, region: &Region) -> String {
+    let mut svg = opening(&drawing.page);
+    path(None, &data(drawing, region, None), &mut svg);
+    svg + "</svg>\n"
+}
+
+/// A drawing in parts as an SVG file, with `region` in place of what is chosen and every other part as it is, each a path
+/// of its own under the names that it has. Where `stretched` is given it is in the frame of that, and its arcs become
+/// arcs of ellipses.
+pub fn write_parts(parts: &Parts, region: &Region, stretched: Option<&Stretched>) -> String {
+    let mut svg = opening(&parts.chosen().page);
+    let mut open: &[String] = &[];
+    for (k, part) in parts.parts.iter().enumerate() {
+        let shared = open.iter().zip(&part.groups).take_while(|(a, b)| a == b).count();
+        svg += &"</g>\n".repeat(open.len() - shared);
+        for group in &part.groups[shared..] {
+            let _ = writeln!(svg, "<g id=\"{}\">", escaped(group));
+        }
+        open = &part.groups;
+        let drawing = &part.drawing;
+        let data =
+            if k == parts.chosen { data(drawing, region, stretched) } else { data(drawing, &drawing.region, None) };
+        path(part.id.as_deref(), &data, &mut svg);
+    }
+    svg + &"</g>\n".repeat(open.len()) + "</svg>\n"
+}
+
+fn opening(page: &Page) -> String {
+    let mut svg = String::from("<svg xmlns=\"http://www.w3.org/2000/svg\"");
+    let Page { width, height, view_box, preserve_aspect_ratio } = page;
+    let attributes =
+        [("width", width), ("height", height), ("viewBox", view_box), ("preserveAspectRatio", preserve_aspect_ratio)];
+    for (name, value) in attributes {
+        if let Some(value) = value {
+            let _ = write!(svg, " {name}=\"{}\"", escaped(value));
+        }
+    }
+    svg + ">\n"
+}
+
+fn escaped(value: &str) -> String {
+    value.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+fn path(id: Option<&str>, data: &str, svg: &mut String) {
+    let id = id.map_or(String::new(), |id| format!(" id=\"{}\"", escaped(id)));
+    let _ = writeln!(svg, "<path{id} fill-rule=\"evenodd\" d=\"{data}\"/>");
+}
+
+/// The path data of a region of a drawing.
+fn data(drawing: &Drawing, region: &Region, stretched: Option<&Stretched>) -> String {
     let writer = PathWriter::new(drawing);
     let mut data = String::new();
     for ring in region.rings.iter().filter(|r| r.len() > 1) {
         if !data.is_empty() {
             data.push('\n');
         }
-        writer.ring(ring, &mut data);
-    }
-    let mut svg = String::from("<svg xmlns=\"http://www.w3.org/2000/svg\"");
-    let Page { width, height, view_box, preserve_aspect_ratio } = &drawing.page;
-    let attributes =
-        [("width", width), ("height", height), ("viewBox", view_box), ("preserveAspectRatio", preserve_aspect_ratio)];
-    for (name, value) in attributes {
-        if let Some(value) = value {
-            let value = value.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
-            let _ = write!(svg, " {name}=\"{value}\"");
+        match stretched {
+            None => writer.ring(ring, |i, _, data| write_link(&ring.segment(i), data), &mut data),
+            Some(stretched) => {
+                let vertices = ring.vertices.iter().map(|v| stretched.restored(v)).collect();
+                let link = |i: usize, to: Point, data: &mut String| {
+                    write_stretched(&ring.segment(i), to, stretched, data);
+                };
+                writer.ring(&Ring { vertices }, link, &mut data);
+            }
         }
     }
-    let _ = write!(svg, ">\n<path fill-rule=\"evenodd\" d=\"{data}\"/>\n</svg>\n");
-    svg
+    data
 }
 
 /// Writes rings of a drawing as path data.
@@ -87,8 +136,8 @@ impl<'a> PathWriter<'a> {
         PathWriter { drawing, starting, ending }
     }
 
-    /// Adds a ring of two vertices or more to the data.
-    pub(super) fn ring(&self, ring: &Ring, data: &mut String) {
+    /// Writes a ring; `link` writes the element that leaves the vertex of that number, to the given end.
+    pub(super) fn ring(&self, ring: &Ring, link: impl Fn(usize, Point, &mut String), data: &mut String) {
         // Start where a command does, or a curve that runs over the start would be torn.
         let n = ring.len();
         let is_end = |k: usize| {
@@ -106,10 +155,9 @@ impl<'a> PathWriter<'a> {
                 k += run.length();
                 continue;
             }
-            let segment = ring.segment((first + k) % n);
             // The closing line is the Z.
-            if segment.link != Link::Line || k + 1 < n {
-                write_link(&segment, data);
+            if at(k).link != Link::Line || k + 1 < n {
+                link((first + k) % n, at(k + 1).point, data);
             }
             k += 1;
         }
@@ -189,19 +237,50 @@ fn write_curve(kind: CurveKind, to: Point, data: &mut String) {
     };
 }
 
-fn write_link(segment: &Segment, data: &mut String) {
+pub(super) fn write_link(segment: &Segment, data: &mut String) {
     let Link::Arc(arc) = segment.link else {
         let _ = write!(data, "L{}", Pair(segment.end));
         return;
     };
-    let sweep = segment.sweep();
-    // Counterclockwise with y up is counterclockwise on the page: SVG's sweep flag 0.
-    let flag = u8::from(arc.turn == crate::plane::Turn::Right);
-    let parts = (sweep / LARGEST_ARC).ceil().max(1.0) as usize;
-    for part in 1..=parts {
-        let to = segment.point_at(part as f64 / parts as f64);
+    let flag = sweep_flag(arc.turn);
+    for to in arc_ends(segment) {
         let _ = write!(data, "A{} {} 0 0 {flag} {}", arc.radius, arc.radius, Pair(to));
     }
+}
+
+/// Writes an element of the frame of `stretched` that ends at `to` outside of it.
+fn write_stretched(segment: &Segment, to: Point, stretched: &Stretched, data: &mut String) {
+    let Link::Arc(arc) = segment.link else {
+        let _ = write!(data, "L{}", Pair(to));
+        return;
+    };
+    let stretch = stretched.stretch();
+    let (flag, second) = (sweep_flag(arc.turn), arc.radius / stretch.aspect());
+    // Clockwise in a file is counterclockwise with y up.
+    let rotation = plain(-stretch.degrees());
+    let mut ends = arc_ends(segment).peekable();
+    while let Some(end) = ends.next() {
+        let end = if ends.peek().is_some() { stretched.out_of_frame(end) } else { to };
+        let _ = write!(data, "A{} {second} {rotation} 0 {flag} {}", arc.radius, Pair(end));
+    }
+}
+
+/// Counterclockwise with y up is counterclockwise on the page: SVG's sweep flag 0.
+fn sweep_flag(turn: Turn) -> u8 {
+    u8::from(turn == Turn::Right)
+}
+
+/// Where the parts end in which an arc is written.
+fn arc_ends(segment: &Segment) -> impl Iterator<Item = Point> {
+    let parts = (segment.sweep() / LARGEST_ARC).ceil().max(1.0) as usize;
+    // Computed along one direction of the two: where an arc bounds one part and the gap in another, the same points.
+    let is_left = matches!(segment.link, Link::Arc(arc) if arc.turn == Turn::Left);
+    let clockwise = if is_left { segment.reversed() } else { *segment };
+    let end = segment.end;
+    (1..=parts).map(move |part| {
+        let along = if is_left { parts - part } else { part };
+        if part == parts { end } else { clockwise.point_at(along as f64 / parts as f64) }
+    })
 }
 
 /// A point in the file's coordinates.
@@ -219,111 +298,4 @@ fn plain(x: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::io::svg::{ReadOptions, read};
-
-    use super::*;
-
-    fn path_data(d: &str) -> (Drawing, String) {
-        let text = format!("<svg viewBox='0 0 9 9'><path d='{d}'/></svg>");
-        let drawing = read(text.as_bytes(), &ReadOptions::default()).unwrap();
-        let written = write(&drawing, &drawing.region);
-        let d = written.split(" d=\"").nth(1).unwrap().split('"').next().unwrap().to_owned();
-        (drawing, d)
-    }
-
-    #[test]
-    fn kept_commands_are_written_as_they_were_or_turned_round() {
-        // Clockwise on the page is clockwise with y up: an outer ring is turned round.
-        let (_, d) = path_data("M0 4C1 5 3 5 4 4Q5 2 4 0A2 2 0 0 0 0 0.1Z");
-        assert_eq!(d, "M0 4C1 5 3 5 4 4Q5 2 4 0A2.000624902374256 2.000624902374256 0 0 0 0 0.1Z");
-        let (_, d) = path_data("M0 4Q2 4.5 4 4L4 0C3 -1 1 -1 0 0.1Z");
-        assert_eq!(d, "M0 4Q2 4.5 4 4L4 0C3 -1 1 -1 0 0.1Z");
-        let (_, d) = path_data("M0 4L0 0.1C1 -1 3 -1 4 0L4 4Q2 4.5 0 4Z");
-        assert_eq!(d, "M4 4L4 0C3 -1 1 -1 0 0.1L0 4Q2 4.5 4 4Z");
-    }
-
-    /// The drawing's region with the sample in the middle of each curve moved off it.
-    fn with_moved_samples(drawing: &Drawing) -> Region {
-        let middles: Vec<VertexId> =
-            drawing.sources.curves.iter().filter(|c| c.inner > 0).map(|c| c.sample(c.last() / 2)).collect();
-        let mut region = drawing.region.clone();
-        for v in region.rings.iter_mut().flat_map(|r| &mut r.vertices) {
-            if v.id.is_some_and(|id| middles.contains(&id)) {
-                *v = Vertex { id: None, point: v.point + crate::plane::Vector::new(1e-3, 1e-3), ..*v };
-            }
-        }
-        region
-    }
-
-    const CURVES: &str = "M0 4C1 5 3 5 4 4Q5 2 4 0A3 2.5 10 0 0 0 0.1Z";
-
-    #[test]
-    fn a_curve_with_a_moved_sample_is_written_as_its_two_parts() {
-        // Clockwise and counterclockwise, so that the parts are written in both directions.
-        for path in [CURVES, "M0 4L0 0.1A3 2.5 10 0 1 4 0Q5 2 4 4C3 5 1 5 0 4Z"] {
-            let (drawing, _) = path_data(path);
-            let region = with_moved_samples(&drawing);
-            let written = write(&drawing, &region);
-            let count = |c| written.split(" d=\"").nth(1).unwrap().matches(c).count();
-            // Two chords at each moved sample, and the closing line is the Z or a line.
-            assert_eq!((count('C'), count('Q'), count('A')), (2, 2, 2), "{written}");
-            assert!((6..=7).contains(&count('L')), "{written}");
-            // The parts are the curves: their samples are found again, each bit of them.
-            let again = crate::io::svg::read_alike(written.as_bytes(), &ReadOptions::default(), &drawing).unwrap();
-            let points: Vec<Point> = again.region.rings.iter().flat_map(|r| &r.vertices).map(|v| v.point).collect();
-            assert_eq!(points.len(), region.vertex_count());
-            assert!(region.rings[0].vertices.iter().all(|v| points.contains(&v.point)));
-            // Sampled by themselves, too, they stray no farther than chords may.
-            let alone = read(written.as_bytes(), &ReadOptions::default()).unwrap();
-            let index = crate::plane::BoundaryIndex::new(&region);
-            let samples = alone.region.rings.iter().flat_map(|r| &r.vertices).map(|v| index.distance(v.point));
-            let worst = samples.fold(0.0, f64::max);
-            assert!(worst <= drawing.chord_tolerance, "{worst}");
-        }
-    }
-
-    #[test]
-    fn a_part_of_an_ellipse_near_half_a_turn_is_written_in_two() {
-        let (drawing, _) = path_data("M0 4A4 2 0 0 1 8 4Z");
-        let mut region = drawing.region.clone();
-        let last = drawing.sources.curves[0].sample(drawing.sources.curves[0].inner);
-        region.rings[0].vertices.retain(|v| v.id != Some(last));
-        let written = write(&drawing, &region);
-        assert_eq!(written.matches('A').count(), 2, "{written}");
-        let again = read(written.as_bytes(), &ReadOptions::default()).unwrap();
-        let step = PI / f64::from(drawing.sources.curves[0].steps);
-        assert!((again.region.area() - region.area()).abs() < step * step, "{written}");
-    }
-
-    #[test]
-    fn of_polygons_the_vertices_are_written() {
-        let text = format!("<svg viewBox='0 0 9 9'><path d='{CURVES}'/><circle cx='7' cy='7' r='1'/></svg>");
-        let options = ReadOptions { curves: Curves::Polygon, ..ReadOptions::default() };
-        let drawing = read(text.as_bytes(), &options).unwrap();
-        let written = write(&drawing, &drawing.region);
-        let data = written.split(" d=\"").nth(1).unwrap();
-        assert!(!data.contains(['C', 'Q', 'A']));
-        let again = read(written.as_bytes(), &options).unwrap();
-        let points =
-            |d: &Drawing| -> Vec<Point> { d.region.rings.iter().flat_map(|r| &r.vertices).map(|v| v.point).collect() };
-        let (first, second) = (points(&drawing), points(&again));
-        assert_eq!(first.len(), second.len());
-        assert!(first.iter().all(|p| second.contains(p)));
-    }
-
-    #[test]
-    fn arcs_near_half_a_turn_are_written_in_two() {
-        let text = "<svg viewBox='0 0 9 9'><circle cx='4' cy='4' r='2'/></svg>";
-        let drawing = read(text.as_bytes(), &ReadOptions::default()).unwrap();
-        let mut region = drawing.region.clone();
-        // Half circles without identity.
-        region.rings[0].vertices =
-            region.rings[0].vertices.iter().step_by(2).map(|v| Vertex { id: None, ..*v }).collect();
-        let written = write(&drawing, &region);
-        assert_eq!(written.matches('A').count(), 4);
-        let again = read(written.as_bytes(), &ReadOptions::default()).unwrap();
-        assert!((again.region.area() - 4.0 * PI).abs() < 1e-14);
-        assert!(!written.contains("-0 ") && !written.contains("-0A"));
-    }
-}
+mod tests;
