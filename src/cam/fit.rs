@@ -9,9 +9,8 @@
 //! Places are chosen so that the chords lie on the part's side of the arcs: on the arcs about convex vertices, and in the
 //! middle of chords between concave ones.
 
-use crate::plane::{Joint, Link, Point, Ring, Segment, turn_angle};
+use crate::plane::{Biarc, Joint, Link, Place, Point, Ring, Segment, turn_angle};
 
-use super::biarc::{Biarc, Place};
 use super::simplify::{join_aligned, ring_of_segments};
 
 /// The most that a fitted arc may leave the exact path towards the part, in millimetres, and the most that it may leave

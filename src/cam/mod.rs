@@ -10,7 +10,6 @@
 //! in x and y only at the safe height; it enters the stock only by a ramp or a straight plunge at the plunge feed.
 //! Refused: regions with concave features tighter than the tool, jobs with values that make no sense.
 
-mod biarc;
 mod certificate;
 mod contour;
 mod entry;

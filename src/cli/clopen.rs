@@ -2,10 +2,13 @@
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
+use indicatif::ProgressBar;
 
 use super::ExitStatus;
 use super::close::{CloseArgs, Done, Operation, Report, Work};
 use crate::check::{Named, differences};
+use crate::flow::{CurveFlow, Field, Obstacle, Settings, Status};
+use crate::plane::Region;
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
@@ -70,9 +73,37 @@ pub(super) fn run(args: &ClopenArgs) -> Result<ExitStatus> {
         let (order, other) = (args.order, args.order.other());
         let (done, otherwise) = (order.run(work), other.run(work));
         let (region, other_region) = (work.on_page(&done.region), work.on_page(&otherwise.region));
-        let results =
-            [Named { name: order.name(), region: &region }, Named { name: other.name(), region: &other_region }];
-        let report = Report::clopening(order, work, &done, differences(&results, work.radius));
+        let (flow, remark) = flow(work)?;
+        let flow = work.on_page(&flow);
+        let results = [(order.name(), &region), (other.name(), &other_region), ("flow", &flow)];
+        let results = results.map(|(name, region)| Named { name, region });
+        let report = Report::clopening(order, work, &done, differences(&results, work.radius), remark);
         Ok((done.region, report))
     })
+}
+
+/// The flow is given up after this time, in r²: by then it has gone through slots thirty radii deep.
+const MOST_TIME: f64 = 50.0;
+
+/// The limit of the flow with both bounds at once, and what is to be said of it where that is not all.
+fn flow(work: &Work) -> Result<(Region, Option<String>)> {
+    let (region, field) = (work.region(), Field::constant(work.radius));
+    let mut flow = CurveFlow::new(region, Obstacle::CLOPENING, field, &Settings::default())?;
+    // What that takes is not known before; hidden where standard error is no terminal.
+    let bar = ProgressBar::new_spinner().with_message("both bounds at once");
+    let most = MOST_TIME * work.radius.get() * work.radius.get();
+    while flow.step(most) == Status::Going && flow.time() < most {
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let report = flow.report();
+    let remark = match report.end {
+        None => Some(format!("the flow has not come to its limit in {MOST_TIME} r²: clopen flow goes on")),
+        Some(end) if !end.is_limit() => Some("the flow stalled on its way; this is its best state".to_owned()),
+        Some(_) if !report.contacts.is_empty() => {
+            Some(format!("the flow ran into itself in {} places, which the disk does not", report.contacts.len()))
+        }
+        Some(_) => None,
+    };
+    Ok((flow.rounded(), remark))
 }

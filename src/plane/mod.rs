@@ -4,6 +4,7 @@
 //! reads a drawing decides (see [`crate::units`]). Solid material lies on the left of every link, so outer rings run
 //! counterclockwise and holes clockwise, with the y axis pointing up.
 
+mod biarc;
 mod bounds;
 mod chain_tree;
 mod distance;
@@ -17,6 +18,7 @@ mod segment;
 mod segment_distance;
 mod stretch;
 
+pub use biarc::{Biarc, Place};
 pub use bounds::Bounds;
 pub use chain_tree::ChainTree;
 pub use distance::BoundaryIndex;

@@ -93,6 +93,9 @@ pub(in crate::cli) struct Report {
     /// How much the ways to have both bounds at once differ from each other.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     differences: Vec<Differing>,
+    /// What is to be said of the flow among them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flow_remark: Option<String>,
 }
 
 fn is_zero(count: &usize) -> bool {
@@ -128,15 +131,23 @@ impl Report {
             places_units: spread(&places, 2.0 * r).iter().map(|p| [p.x, -p.y]).collect(),
             proved: done.proved,
             differences: Vec::new(),
+            flow_remark: None,
         }
     }
 
     /// The report of a clopening, with how much its ways differ.
-    pub(in crate::cli) fn clopening(order: Order, work: &Work, done: &Done, differences: Vec<Difference>) -> Report {
+    pub(in crate::cli) fn clopening(
+        order: Order,
+        work: &Work,
+        done: &Done,
+        differences: Vec<Difference>,
+        flow_remark: Option<String>,
+    ) -> Report {
         Report {
             operation: "clopen",
             order: Some(order),
             differences: differences.into_iter().map(Into::into).collect(),
+            flow_remark,
             ..Report::new(Operation::Close, work, done)
         }
     }
@@ -182,6 +193,9 @@ impl Report {
                      {symmetric_difference_square_units:.6} square units\n",
                 ),
             };
+        }
+        if let Some(remark) = &self.flow_remark {
+            text += &format!("{remark}\n");
         }
         if !self.places_units.is_empty() {
             const SHOWN: usize = 5;

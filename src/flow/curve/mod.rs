@@ -7,6 +7,7 @@ mod contact;
 mod front;
 mod outline;
 mod remesh;
+mod rounded;
 mod runs;
 #[cfg(test)]
 mod tests;
@@ -193,7 +194,13 @@ impl<'a> CurveFlow<'a> {
         (self.advance.last.moving, self.advance.last.largest)
     }
 
-    /// The outline as it is now.
+    /// The outline as it is now, with arcs in place of the chords where it moved: a smooth curve through the vertices, from
+    /// which they are at most a two-hundredth of an edge length away.
+    pub fn rounded(&self) -> Region {
+        rounded::rounded(&self.advance.front)
+    }
+
+    /// The outline as it is now, with chords where it moved.
     pub fn region(&self) -> Region {
         self.advance.front.outline.region()
     }

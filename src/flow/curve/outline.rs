@@ -186,26 +186,32 @@ impl Outline {
         std::iter::successors((first != NONE).then_some(first), |i| Some(self.node(*i).next)).take(count as usize)
     }
 
-    /// The region as it is now. What did not move has the links and identities that it had; nodes that were put on an edge
-    /// are left out where the edge is still all there.
+    /// The nodes of a ring that a region needs, in order: those that were put on an edge are left out where the edge is still
+    /// all there.
+    pub fn needed(&self, ring: u32) -> impl Iterator<Item = u32> + '_ {
+        self.walk(ring).filter(|&i| {
+            let node = self.node(i);
+            !node.born || !self.is_still(i) || !self.is_still(node.prev)
+        })
+    }
+
+    /// A node as a vertex of a region, with the edge that leaves it. What did not move has the link and the identity that
+    /// it had.
+    pub fn vertex(&self, i: u32) -> Vertex {
+        let node = self.node(i);
+        let in_place = !node.born && !node.moved;
+        Vertex {
+            point: node.point,
+            link: self.edge(i).link,
+            joint: if in_place { node.joint } else { Joint::Corner },
+            id: node.origin.filter(|_| in_place),
+        }
+    }
+
+    /// The region as it is now, with chords where it moved.
     pub fn region(&self) -> Region {
-        let rings = (0..self.loops.len() as u32).map(|ring| {
-            let is_needed = |i: &u32| {
-                let node = self.node(*i);
-                !node.born || !self.is_still(*i) || !self.is_still(node.prev)
-            };
-            let vertices = self.walk(ring).filter(is_needed).map(|i| {
-                let node = self.node(i);
-                let in_place = !node.born && !node.moved;
-                Vertex {
-                    point: node.point,
-                    link: self.edge(i).link,
-                    joint: if in_place { node.joint } else { Joint::Corner },
-                    id: node.origin.filter(|_| in_place),
-                }
-            });
-            Ring { vertices: vertices.collect() }
-        });
+        let ring = |ring| Ring { vertices: self.needed(ring).map(|i| self.vertex(i)).collect() };
+        let rings = (0..self.loops.len() as u32).map(ring);
         Region::new(rings.filter(|r| r.len() > 1).collect())
     }
 }

@@ -1,6 +1,6 @@
 //! Two arcs that leave a point in one direction, arrive at another in another, and meet without a corner.
 
-use crate::plane::{Arc, Link, Point, Segment, Turn, Vector, left_normal, right_normal};
+use super::{Arc, Link, Point, Segment, Turn, Vector, left_normal, right_normal};
 
 /// Sine of the angle between tangent and chord below which an arc is written as a line: its sagitta is then below a
 /// billionth of its length.
@@ -8,16 +8,20 @@ const STRAIGHT_SINE: f64 = 4e-9;
 
 /// A point of a curve with the unit direction of travel there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
-    pub(super) point: Point,
-    pub(super) tangent: Vector,
+pub struct Place {
+    /// Where it is.
+    pub point: Point,
+    /// The direction, of length one.
+    pub tangent: Vector,
 }
 
 /// The two arcs and the line across the curve where they meet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Biarc {
-    pub(super) first: Segment,
-    pub(super) second: Segment,
+pub struct Biarc {
+    /// From the start to where they meet.
+    pub first: Segment,
+    /// From there to the end.
+    pub second: Segment,
     joint: Place,
 }
 
@@ -25,7 +29,7 @@ impl Biarc {
     /// The biarc from `a` to `b` whose control polygon has sides of equal length at both ends.
     ///
     /// `None` where the two places are one, or face each other so that no such curve is shorter than a detour.
-    pub(super) fn between(a: Place, b: Place) -> Option<Biarc> {
+    pub fn between(a: Place, b: Place) -> Option<Biarc> {
         let chord = b.point - a.point;
         let along = chord.dot(&(a.tangent + b.tangent));
         let length_squared = chord.norm_squared();
@@ -45,13 +49,13 @@ impl Biarc {
     }
 
     /// How far `p` lies right of the curve, negative to the left. For points near the curve.
-    pub(super) fn offside(&self, p: Point) -> f64 {
+    pub fn offside(&self, p: Point) -> f64 {
         offside(self.arc_at(p), p)
     }
 
     /// The points inside `element` where its distance from the curve may be greatest or least: where it runs parallel to
     /// one of the arcs.
-    pub(super) fn extremes(&self, element: &Segment) -> [Option<Point>; 4] {
+    pub fn extremes(&self, element: &Segment) -> [Option<Point>; 4] {
         let [a, b] = [&self.first, &self.second].map(|own| {
             let points = match (own.link, element.link) {
                 (Link::Line, Link::Line) => [None; 2],
