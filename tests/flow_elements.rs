@@ -117,8 +117,9 @@ fn interlocking_parts_keep_their_fit() {
         let hole = Region::new(b.rings.iter().filter(|r| r.area() < 0.0).map(|r| r.reversed()).collect());
         assert_eq!(hole.rings.len(), 1);
         let apart = farthest(&a, &hole).max(farthest(&hole, &a));
-        // (1.5 h)² / 8 r, for the longest edges on the bound.
-        let stray = (1.5 * h) * (1.5 * h) / (8.0 * 2.0);
+        // (1.5 h)² / 8 r for the longest edges; on the way to the bound curves are still sharper, by up to a half here.
+        let sharpest = if time.is_empty() { 2.0 } else { 1.0 };
+        let stray = (1.5 * h) * (1.5 * h) / (8.0 * sharpest);
         assert!(apart < stray, "{edge}: {apart:e}, not {stray:e}");
     }
 }

@@ -34,17 +34,17 @@ pub(super) struct TextArgs {
     /// Which font of a collection, from 0
     #[arg(long, value_name = "NUMBER")]
     index: Option<u32>,
-    /// Let the letters flow, and stop at this time, in squares of the radius; 0.5 is most of the way
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    /// How to print the report: text goes to standard error, json to standard output
+    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
+    format: FormatArg,
+    /// Let the letters flow, and stop at this time, in squares of the radius; right corners are round by 0.3
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, help_heading = "States on the way")]
     time: Option<f64>,
     /// Pixels: the width of the contact sheet, the long side of the animated PNG
     #[arg(long, value_name = "PIXELS", default_value_t = DEFAULT_SIZE, help_heading = "States on the way")]
     pixels: u32,
     #[command(flatten)]
     states: StateArgs,
-    /// How to print the report: text goes to standard error, json to standard output
-    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
-    format: FormatArg,
 }
 
 /// What is done to letters.
