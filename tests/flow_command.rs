@@ -279,7 +279,7 @@ fn bad_input_is_told_in_a_sentence() {
         ("--op close -r 2 --frames 0 --sheet s.png", "--frames 0"),
         ("--op close -r 2 --frames -3 --sheet s.png", "--frames -3"),
         ("--op close -r 2 --frames 1000000 --sheet s.png", "--frames 1000000"),
-        ("--op close -r 2 --frames 3", "--sheet"),
+        ("--op close -r 2 --frames 3 -o o.svg", "--sheet"),
         ("--op close -r 2 --time -1", "--time -1"),
         ("--op close -r 2 --time NaN", "--time NaN"),
         ("--op close -r 2 --time 0", "--time 0"),

@@ -2,6 +2,7 @@
 
 mod field;
 mod outputs;
+mod own;
 mod record;
 mod report;
 
@@ -12,14 +13,14 @@ use clap::{Args, ValueEnum};
 
 use super::ExitStatus;
 use super::check::FormatArg;
-use super::input::ReadArgs;
+use super::input::{ReadArgs, SelectionArgs, read_bytes};
 use super::output;
 use crate::flow::{CurveFlow, DEFAULT_EDGE, DEFAULT_TIME_STEP, DEFAULT_TOLERANCE, Obstacle, OnContact, Settings};
-use crate::io::svg::Drawing;
-use crate::plane::is_pinned;
+use crate::io::svg::Parts;
+use crate::plane::Region;
 use crate::units::Length;
 use field::FieldArgs;
-use outputs::OutputArgs;
+pub(super) use outputs::{OutputArgs, StateArgs};
 use record::Plan;
 use report::Report;
 
@@ -31,6 +32,11 @@ pub(super) struct FlowArgs {
     input: PathBuf,
     #[command(flatten)]
     flow: FlowOptions,
+    /// An element in whose area nothing moves, by its id, painted or not (it may stand in defs); may be given more than once
+    #[arg(long = "pin-id", help_heading = field::HEADING, value_name = "ID")]
+    pinned: Vec<String>,
+    #[command(flatten)]
+    selection: SelectionArgs,
     #[command(flatten)]
     reading: ReadArgs,
 }
@@ -108,19 +114,27 @@ pub(super) enum BoundArg {
 /// Where the drawing cannot be read, an argument means nothing for it, or a result cannot be written.
 pub(super) fn run(args: &FlowArgs) -> Result<ExitStatus> {
     args.flow.check(Some(&args.input))?;
-    let drawing = args.reading.read(&args.input)?;
-    run_on(&drawing, &args.flow)
+    let bytes = read_bytes(&args.input)?;
+    let parts = args.reading.read_parts_from(&bytes, &args.input, &args.selection.selection(), None)?;
+    let area = |id: &String| {
+        let area = args.reading.read_area(&bytes, &args.input, id).context("--pin-id")?;
+        Ok((id.clone(), area))
+    };
+    let pins = args.pinned.iter().map(area).collect::<Result<Vec<_>>>()?;
+    run_on(&parts, &pins, &args.flow)
 }
 
-/// Lets the outlines of a drawing flow, and writes what is asked for. The options have been [checked](FlowOptions::check).
+/// Lets the outlines of what is chosen of a drawing flow, but for what lies in `pins`, and writes what is asked for. The
+/// options have been [checked](FlowOptions::check).
 ///
 /// # Errors
 /// As [`run`].
-pub(super) fn run_on(drawing: &Drawing, options: &FlowOptions) -> Result<ExitStatus> {
-    let field = options.field.resolve(drawing)?;
-    let [smallest, largest] = field.radius.range();
+pub(super) fn run_on(parts: &Parts, pins: &[(String, Region)], options: &FlowOptions) -> Result<ExitStatus> {
+    let drawing = parts.chosen();
+    let field = options.field.resolve(parts, pins)?;
+    let [smallest, largest] = field.range();
     let edge = match options.edge_length {
-        Some(length) => length.to_user_units(&drawing.scale()).context("--edge-length")? / smallest.get(),
+        Some(length) => length.to_user_units(&parts.scale()).context("--edge-length")? / smallest.get(),
         None => DEFAULT_EDGE,
     };
     let settings = Settings {
@@ -132,12 +146,7 @@ pub(super) fn run_on(drawing: &Drawing, options: &FlowOptions) -> Result<ExitSta
             OnContactArg::Stop => OnContact::Stop,
         },
     };
-    let (radius, pins) = (&field.radius, &field.pins);
-    let start = || {
-        let field =
-            crate::flow::Field { radius: Box::new(|p, _| radius.at(p)), pinned: Box::new(|p| is_pinned(pins, p)) };
-        CurveFlow::new(&drawing.region, options.obstacle(), field, &settings)
-    };
+    let start = || CurveFlow::new(&drawing.region, options.obstacle(), field.view(), &settings);
     let square = largest.get() * largest.get();
     let plan = Plan {
         frames: options.outputs.frame_count(),
@@ -146,13 +155,44 @@ pub(super) fn run_on(drawing: &Drawing, options: &FlowOptions) -> Result<ExitSta
     };
     let recording = record::record(start, plan)?;
     let frames = recording.frames(square);
-    let written = options.outputs.write(drawing, &frames)?;
-    let report = Report::new(drawing, options, &field.radius, edge, &recording, &frames, written);
+    let written = options.outputs.write(parts, &frames)?;
+    let report = Report::new(drawing, options, field.range(), edge, &recording, &frames, written);
     match options.format {
-        FormatArg::Text => output::say(&report.lines()),
+        FormatArg::Text => {
+            output::say(&report.lines());
+            if options.outputs.plays() {
+                output::say(
+                    "the drawing on standard output plays all states, for looking at; --stills writes them exactly\n",
+                );
+            }
+        }
         FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
     }
     Ok(if report.is_good() { ExitStatus::Done } else { ExitStatus::CheckFailed })
+}
+
+#[cfg(feature = "text")]
+impl FlowOptions {
+    /// A flow with everything that is not named here as it is unless told otherwise; its radius is still to come.
+    pub(super) fn new(op: OperationArg, time: Option<f64>, outputs: OutputArgs, format: FormatArg) -> FlowOptions {
+        FlowOptions {
+            op: Some(op),
+            field: FieldArgs::default(),
+            time,
+            edge_length: None,
+            time_step: DEFAULT_TIME_STEP,
+            tolerance: DEFAULT_TOLERANCE,
+            on_contact: OnContactArg::Report,
+            bound: BoundArg::Curvature,
+            outputs,
+            format,
+        }
+    }
+
+    /// The same with this radius everywhere.
+    pub(super) fn with_radius(self, radius: Length) -> FlowOptions {
+        FlowOptions { field: FieldArgs::constant(radius), ..self }
+    }
 }
 
 impl FlowOptions {

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 
 use super::output;
 use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, Parts, ReadOptions, Selection, Strokes, Warning};
-use crate::plane::Stretch;
+use crate::plane::{Region, Stretch};
 use crate::units::{DrawingScale, Length};
 
 /// The bytes of a file, or of standard input where the name is `-`.
@@ -132,6 +132,20 @@ impl ReadArgs {
     /// # Errors
     /// As [`ReadArgs::read`], and where the selection means nothing for the drawing.
     pub(super) fn read_parts(&self, path: &Path, selection: &Selection, stretch: Option<&Stretch>) -> Result<Parts> {
+        self.read_parts_from(&read_bytes(path)?, path, selection, stretch)
+    }
+
+    /// Reads a drawing in parts from the bytes of `path`, as [`ReadArgs::read_parts`] does.
+    ///
+    /// # Errors
+    /// As [`ReadArgs::read_parts`].
+    pub(super) fn read_parts_from(
+        &self,
+        bytes: &[u8],
+        path: &Path,
+        selection: &Selection,
+        stretch: Option<&Stretch>,
+    ) -> Result<Parts> {
         let mut options = self.options()?;
         if let Some(stretch) = stretch {
             // Circles are none in the frame; and what strays from a curve may stray farther there, or when it is back.
@@ -140,15 +154,22 @@ impl ReadArgs {
                 options.curves = Curves::Chords;
             }
         }
-        let bytes = read_bytes(path)?;
         let read = if selection.is_everything() {
-            svg::read(&bytes, &options).map(Parts::from)
+            svg::read(bytes, &options).map(Parts::from)
         } else {
-            svg::read_parts(&bytes, &options, selection)
+            svg::read_parts(bytes, &options, selection)
         };
         let parts = read.with_context(|| path.display().to_string())?;
         Self::say_warnings(path, &parts.chosen().warnings);
         Ok(parts)
+    }
+
+    /// The area of an element of the drawing that the bytes of `path` hold, painted or not.
+    ///
+    /// # Errors
+    /// Names the file; where it has no such element, the one with the nearest name.
+    pub(super) fn read_area(&self, bytes: &[u8], path: &Path, id: &str) -> Result<Region> {
+        svg::read_area(bytes, &self.options()?, id).with_context(|| path.display().to_string())
     }
 
     /// Reads a drawing that was made from `other`, so that what was kept has the same vertices in both.

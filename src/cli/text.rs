@@ -1,4 +1,4 @@
-//! `clopen text "Quartz" --font F.ttf`: a line of text, closed or opened.
+//! `clopen text "Quartz" --font F.ttf`: a line of text, closed or opened, by the rolling disk or by the flow in time.
 
 use std::path::PathBuf;
 
@@ -8,6 +8,8 @@ use clap::{Args, ValueEnum};
 use super::ExitStatus;
 use super::check::FormatArg;
 use super::close::TopologyArg;
+use super::flow::StateArgs;
+use crate::preview::DEFAULT_SIZE;
 use crate::units::{FontLength, Length};
 
 /// The arguments.
@@ -35,6 +37,14 @@ pub(super) struct TextArgs {
     /// How to print the report: text goes to standard error, json to standard output
     #[arg(long, value_enum, default_value_t = FormatArg::Text)]
     format: FormatArg,
+    /// Let the letters flow, and stop at this time, in squares of the radius; right corners are round by 0.3
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, help_heading = "States on the way")]
+    time: Option<f64>,
+    /// Pixels: the width of the contact sheet, the long side of the animated PNG
+    #[arg(long, value_name = "PIXELS", default_value_t = DEFAULT_SIZE, help_heading = "States on the way")]
+    pixels: u32,
+    #[command(flatten)]
+    states: StateArgs,
 }
 
 /// What is done to letters.
@@ -78,9 +88,10 @@ mod with_text {
     use anyhow::{Context as _, bail};
 
     use super::*;
+    use crate::cli::flow::{self, FlowOptions, OperationArg, OutputArgs};
     use crate::cli::{input, output};
     use crate::io::font::{self, Face, Sampling};
-    use crate::io::svg;
+    use crate::io::svg::{self, Drawing, Parts};
     use crate::plane::{Region, TopologyCount};
     use crate::rolling::{self, Outcome};
     use crate::units::Radius;
@@ -100,6 +111,45 @@ mod with_text {
                     opened
                 }
             }
+        }
+    }
+
+    impl TextArgs {
+        /// What the flow is to do, where states on the way are asked for; the disk knows none.
+        ///
+        /// # Errors
+        /// Names the option that means nothing for a flow.
+        fn flow(&self) -> anyhow::Result<Option<FlowOptions>> {
+            if self.time.is_none() && !self.states.is_asked_for() {
+                return Ok(None);
+            }
+            if self.style.topology == TopologyArg::Merge {
+                bail!(
+                    "--topology merge is for the rolling disk, and the flow knows every outline by itself: leave it out, or \
+                     --time, --frames and pictures of states"
+                );
+            }
+            let op = match self.style.op {
+                StyleOp::Open => OperationArg::Open,
+                StyleOp::Close => OperationArg::Close,
+                StyleOp::Clopen => OperationArg::Clopen,
+            };
+            let outputs = OutputArgs { output: self.output.clone(), size: self.pixels, states: self.states.clone() };
+            let options = FlowOptions::new(op, self.time, outputs, self.format);
+            options.check(Some(&self.font))?;
+            Ok(Some(options))
+        }
+
+        /// The text as a drawing in font units, and the radius in them.
+        fn set(&self, em_mm: f64) -> anyhow::Result<(Drawing, Radius, f64)> {
+            let name = || self.font.display().to_string();
+            let bytes = input::read_bytes(&self.font)?;
+            let face = Face::parse(&bytes, self.index).with_context(name)?;
+            let units = self.style.radius.to_units(face.units_per_em());
+            let radius = font::check_radius(units, face.units_per_em()).context("--radius")?;
+            let sampling = Sampling::new(face.units_per_em(), radius.get());
+            let drawing = font::line(&face, &self.text, sampling, em_mm).with_context(name)?;
+            Ok((drawing, radius, face.units_per_em()))
         }
     }
 
@@ -126,23 +176,21 @@ mod with_text {
     /// # Errors
     /// Where the font cannot be read, lacks characters, or the result cannot be written.
     pub(in crate::cli) fn run(args: &TextArgs) -> Result<ExitStatus> {
+        let em_mm = input::millimetres(args.size, "--size")?;
+        if em_mm <= 0.0 {
+            bail!("--size is {}: it must be above zero", args.size);
+        }
+        if let Some(options) = args.flow()? {
+            let (drawing, radius, _) = args.set(em_mm)?;
+            return flow::run_on(&Parts::from(drawing), &[], &options.with_radius(Length::UserUnits(radius.get())));
+        }
         let to_stdout = args.output.as_deref().is_none_or(|p| p == Path::new("-"));
         if args.format == FormatArg::Json && to_stdout {
             bail!("--format json prints the report on standard output, where the drawing would go: add -o OUT.svg");
         }
         let target = args.output.clone().unwrap_or_else(|| PathBuf::from("-"));
         output::keep_input(&args.font, &target)?;
-        let em_mm = input::millimetres(args.size, "--size")?;
-        if em_mm <= 0.0 {
-            bail!("--size is {}: it must be above zero", args.size);
-        }
-        let name = || args.font.display().to_string();
-        let bytes = input::read_bytes(&args.font)?;
-        let face = Face::parse(&bytes, args.index).with_context(name)?;
-        let units = args.style.radius.to_units(face.units_per_em());
-        let radius = font::check_radius(units, face.units_per_em()).context("--radius")?;
-        let sampling = Sampling::new(face.units_per_em(), radius.get());
-        let drawing = font::line(&face, &args.text, sampling, em_mm).with_context(name)?;
+        let (drawing, radius, units_per_em) = args.set(em_mm)?;
         let outcome = args.style.apply(&drawing.region, radius);
         output::write(&target, svg::write(&drawing, &outcome.region).as_bytes())?;
         let kept = outcome.region.rings.iter().flat_map(|r| &r.vertices).filter(|v| v.id.is_some()).count();
@@ -150,7 +198,7 @@ mod with_text {
             text: &args.text,
             operation: args.style.op,
             radius_font_units: radius.get(),
-            units_per_em: face.units_per_em(),
+            units_per_em,
             em_mm,
             vertices_in: drawing.region.vertex_count(),
             vertices_kept: kept,

@@ -178,3 +178,6 @@ impl<F: Front<D>, const D: usize> Advance<F, D> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

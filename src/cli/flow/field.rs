@@ -10,15 +10,24 @@ use clap::Args;
 use crate::cli::close::refuse_absurd;
 use crate::cli::input::read_bytes;
 use crate::io::picture::GreyPicture;
-use crate::io::svg::Drawing;
-use crate::plane::{BoundaryIndex, Bounds, Gradient, PinnedArea, Point, RadiusField, RadiusMap};
-use crate::units::{Length, Radius};
+use crate::io::svg::{Parts, RADIUS_ATTRIBUTE};
+use crate::plane::{
+    BoundaryIndex, Bounds, Gradient, PinnedArea, PinnedRegion, Point, RadiusField, RadiusMap, Region, VertexId,
+    is_pinned,
+};
+use crate::units::{DrawingScale, Length, Radius};
+
+use super::own::OwnRadii;
+
+/// Over the options that say what binds the flow.
+pub(super) const HEADING: &str = "Radius and pins (coordinates are user units as in the file, y down)";
 
 /// Radii and pins.
-#[derive(Clone, Debug, Args)]
-#[command(next_help_heading = "Radius and pins (coordinates are user units as in the file, y down)")]
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = HEADING)]
 pub(super) struct FieldArgs {
-    /// Radius of the disk: 2mm, 0.125in, 3px, 5u (user units) or 2% (of the diagonal); a bare number is millimetres
+    /// Radius of the disk: 2mm, 0.125in, 3px, 5u (user units) or 2% (of the diagonal); a bare number is millimetres.
+    /// Elements with a data-clopen-radius="2mm", on them or around them, have that one instead
     #[arg(short, long, value_name = "LENGTH", allow_hyphen_values = true)]
     radius: Option<Length>,
     /// The radius at a point, from which it varies linearly to the other one: 10,0=1mm
@@ -57,30 +66,80 @@ pub(super) struct FieldArgs {
 
 /// What the arguments mean for a drawing, in its user units with y up.
 pub(super) struct Field {
-    pub(super) radius: RadiusField,
-    pub(super) pins: Vec<PinnedArea>,
+    /// What holds where no element says otherwise; none where all of them do.
+    base: Option<RadiusField>,
+    own: Option<OwnRadii>,
+    range: [Radius; 2],
+    pins: Vec<PinnedArea>,
+}
+
+impl Field {
+    /// The field as the flow asks for it.
+    pub(super) fn view(&self) -> crate::flow::Field<'_> {
+        crate::flow::Field {
+            radius: Box::new(|p, vertex| self.radius(p, vertex)),
+            pinned: Box::new(|p| is_pinned(&self.pins, p)),
+        }
+    }
+
+    /// The smallest and the largest radius that there may be on the outline.
+    pub(super) fn range(&self) -> [Radius; 2] {
+        self.range
+    }
+
+    fn radius(&self, p: Point, vertex: Option<VertexId>) -> f64 {
+        let own = self.own.as_ref().and_then(|own| own.at(p, vertex));
+        // One of the two says something everywhere: what does not is refused beforehand.
+        own.map(Radius::get).or_else(|| Some(self.base.as_ref()?.at(p))).unwrap_or(f64::NAN)
+    }
 }
 
 impl FieldArgs {
-    /// What the arguments mean for `drawing`.
-    ///
-    /// # Errors
-    /// Names the option, and says what to do.
-    pub(super) fn resolve(&self, drawing: &Drawing) -> Result<Field> {
-        Ok(Field { radius: self.radius_field(drawing)?, pins: self.pins(drawing)? })
+    /// One radius for everything.
+    #[cfg(feature = "text")]
+    pub(super) fn constant(radius: Length) -> FieldArgs {
+        FieldArgs { radius: Some(radius), ..FieldArgs::default() }
     }
 
-    fn radius_field(&self, drawing: &Drawing) -> Result<RadiusField> {
-        let radius = |length: Length, option: &str| resolve_radius(length, option, drawing);
+    /// What the arguments mean for what is chosen of a drawing; `named` are areas in which nothing moves, by their `id`s.
+    ///
+    /// # Errors
+    /// Names the option, or the element, and says what to do.
+    pub(super) fn resolve(&self, parts: &Parts, named: &[(String, Region)]) -> Result<Field> {
+        let pins = self.pins(&parts.chosen().region, named)?;
+        let base = self.radius_field(parts)?;
+        let own = OwnRadii::read(parts)?;
+        let lonely = own.as_ref().map_or(Some(None), |own| own.without().map(Some));
+        let base = match (base, lonely) {
+            (Some(base), Some(_)) => Some(base),
+            // Nothing is left that it could hold for.
+            (_, None) => None,
+            (None, Some(Some(place))) => {
+                bail!("no radius for {place}: give it a {RADIUS_ATTRIBUTE}, or one to all that have none with -r 2mm")
+            }
+            (None, Some(None)) => bail!(
+                "no radius: give one with -r 2mm, two with --radius-from and --radius-to, a picture with --radius-map, or \
+                 every element its own with {RADIUS_ATTRIBUTE}"
+            ),
+        };
+        let ranges = base.iter().map(RadiusField::range).chain(own.iter().map(OwnRadii::range));
+        let range = ranges.reduce(|[a, b], [c, d]| [if c < a { c } else { a }, if d > b { d } else { b }]);
+        let range = range.context("no radius: give one with -r 2mm")?;
+        Ok(Field { base, own, range, pins })
+    }
+
+    fn radius_field(&self, parts: &Parts) -> Result<Option<RadiusField>> {
+        let (scale, diagonal) = (parts.scale(), parts.bounds().diagonal());
+        let radius = |length: Length, option: &str| resolve_radius(length, option, &scale, diagonal);
         if let Some(length) = self.radius {
-            return Ok(RadiusField::Constant(radius(length, "--radius")?));
+            return Ok(Some(RadiusField::Constant(radius(length, "--radius")?)));
         }
         if let (Some(from), Some(to)) = (self.radius_from, self.radius_to) {
             let end =
                 |placed: PlacedRadius, option| Ok::<_, anyhow::Error>((placed.point(), radius(placed.radius, option)?));
             let (start, end) = (end(from, "--radius-from")?, end(to, "--radius-to")?);
             let gradient = Gradient::new(start, end);
-            return gradient.map(RadiusField::Gradient).with_context(|| {
+            return gradient.map(|g| Some(RadiusField::Gradient(g))).with_context(|| {
                 format!(
                     "--radius-from {from} and --radius-to {to} are in the same place: give two points, or one --radius"
                 )
@@ -88,22 +147,24 @@ impl FieldArgs {
         }
         if let (Some(path), Some(black), Some(white)) = (&self.radius_map, self.radius_black, self.radius_white) {
             let (black, white) = (radius(black, "--radius-black")?, radius(white, "--radius-white")?);
-            return Ok(RadiusField::Map(radius_map(path, drawing, black, white)?));
+            return Ok(Some(RadiusField::Map(radius_map(path, parts, black, white)?)));
         }
-        bail!("no radius: give one with -r 2mm, two with --radius-from and --radius-to, or a picture with --radius-map")
+        Ok(None)
     }
 
-    fn pins(&self, drawing: &Drawing) -> Result<Vec<PinnedArea>> {
+    fn pins(&self, region: &Region, named: &[(String, Region)]) -> Result<Vec<PinnedArea>> {
         let rectangles = self.rectangles.iter().map(|pin| (format!("--pin {pin}"), pin.area()));
         let circles = self.circles.iter().map(|pin| (format!("--pin-circle {pin}"), pin.area()));
+        let named =
+            named.iter().map(|(id, area)| (format!("--pin-id {id}"), PinnedArea::Region(PinnedRegion::new(area))));
         let mut areas = Vec::new();
         let mut outline = None;
-        for (typed, area) in rectangles.chain(circles) {
-            if !area.touches(outline.get_or_insert_with(|| BoundaryIndex::new(&drawing.region))) {
-                let b = drawing.region.bounds();
+        for (typed, area) in rectangles.chain(circles).chain(named) {
+            if !area.touches(outline.get_or_insert_with(|| BoundaryIndex::new(region))) {
+                let b = region.bounds();
                 let [left, top, right, bottom] = [b.min.x, -b.max.y, b.max.x, -b.min.y].map(|x| x + 0.0);
                 bail!(
-                    "{typed} touches no outline and would hold nothing: the drawing reaches from ({left:.2}, {top:.2}) to \
+                    "{typed} touches no outline and would hold nothing: what flows reaches from ({left:.2}, {top:.2}) to \
                      ({right:.2}, {bottom:.2}) in user units, y down"
                 );
             }
@@ -113,20 +174,21 @@ impl FieldArgs {
     }
 }
 
-fn resolve_radius(length: Length, option: &str, drawing: &Drawing) -> Result<Radius> {
-    let units = length.to_user_units(&drawing.scale()).with_context(|| option.to_owned())?;
+/// The radius that was typed as `option`, on a drawing of that scale and diagonal.
+pub(super) fn resolve_radius(length: Length, option: &str, scale: &DrawingScale, diagonal: f64) -> Result<Radius> {
+    let units = length.to_user_units(scale).with_context(|| option.to_owned())?;
     let radius = Radius::new(units).with_context(|| option.to_owned())?;
-    refuse_absurd(radius, length, option, drawing.region.bounds().diagonal())?;
+    refuse_absurd(radius, length, option, diagonal)?;
     Ok(radius)
 }
 
-fn radius_map(path: &Path, drawing: &Drawing, black: Radius, white: Radius) -> Result<RadiusMap> {
+fn radius_map(path: &Path, parts: &Parts, black: Radius, white: Radius) -> Result<RadiusMap> {
     let name = || path.display().to_string();
     let picture = GreyPicture::read(&read_bytes(path)?).with_context(name)?;
     // A drawing without a page has at least an extent.
-    let area = match drawing.page.area() {
+    let area = match parts.chosen().page.area() {
         Some([x, y, width, height]) => rectangle(x, y, width, height),
-        None => drawing.region.bounds(),
+        None => parts.bounds(),
     };
     RadiusMap::new(picture.columns, picture.levels, area, black, white)
         .with_context(|| format!("{}: the drawing's page has no width or height to lay it over", name()))

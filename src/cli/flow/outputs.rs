@@ -8,17 +8,35 @@ use clap::{Args, ValueEnum};
 use super::record::Spacing;
 use crate::cli::check::FormatArg;
 use crate::cli::output;
-use crate::io::svg::{self, Drawing, Still};
+use crate::io::svg::{self, Parts, Still};
 use crate::plane::Region;
 use crate::preview::{self, Cell, DEFAULT_SIZE, Frame, Picture, time_captions};
 
 /// What goes where.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Output")]
-pub(super) struct OutputArgs {
+pub(in crate::cli) struct OutputArgs {
     /// Where the last state goes, SVG; standard output unless this or a picture is given
     #[arg(short, long, value_name = "OUT.svg")]
-    output: Option<PathBuf>,
+    pub(in crate::cli) output: Option<PathBuf>,
+    /// Pixels: the width of the contact sheet, the long side of the animated PNG
+    #[arg(long, visible_alias = "pixels", value_name = "PIXELS", default_value_t = DEFAULT_SIZE)]
+    pub(in crate::cli) size: u32,
+    #[command(flatten)]
+    pub(in crate::cli) states: StateArgs,
+}
+
+/// States on the way, and what shows them.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "States on the way")]
+pub(in crate::cli) struct StateArgs {
+    /// How many states, evenly spread to the end; pictures that move start with the drawing itself before them. Where nothing
+    /// else is to be written, the drawing on standard output plays them
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    frames: Option<i64>,
+    /// In what the states are evenly spread
+    #[arg(long, value_enum, default_value_t = FramesByArg::Time)]
+    frames_by: FramesByArg,
     /// Where the states go, one SVG each: OUT.svg becomes OUT-01.svg, OUT-02.svg ...; {} in the name stands for the number
     #[arg(long, value_name = "OUT.svg")]
     stills: Option<PathBuf>,
@@ -31,18 +49,9 @@ pub(super) struct OutputArgs {
     /// Where a contact sheet goes, PNG: the states side by side, what moved in colour
     #[arg(long, value_name = "OUT.png")]
     sheet: Option<PathBuf>,
-    /// How many states, evenly spread to the end; pictures that move start with the drawing itself before them
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
-    frames: Option<i64>,
-    /// In what the states are evenly spread
-    #[arg(long, value_enum, default_value_t = FramesByArg::Time)]
-    frames_by: FramesByArg,
     /// Columns of the contact sheet; as many as look well unless given
     #[arg(long, value_name = "NUMBER", requires = "sheet", value_parser = clap::value_parser!(u16).range(1..=100))]
     columns: Option<u16>,
-    /// Pixels: the width of the contact sheet, the long side of the animated PNG
-    #[arg(long, value_name = "PIXELS", default_value_t = DEFAULT_SIZE)]
-    size: u32,
 }
 
 /// `--frames-by`.
@@ -72,18 +81,31 @@ const MOVING_SECONDS: f64 = 2.5;
 const SHORTEST_SECONDS: f64 = 0.04;
 const LONGEST_SECONDS: f64 = 0.4;
 
+impl StateArgs {
+    /// Whether states on the way are wanted.
+    #[cfg(feature = "text")]
+    pub(in crate::cli) fn is_asked_for(&self) -> bool {
+        self.frames.is_some() || self.has_pictures()
+    }
+
+    fn has_pictures(&self) -> bool {
+        self.stills.is_some() || self.animation.is_some() || self.apng.is_some() || self.sheet.is_some()
+    }
+}
+
 impl OutputArgs {
     /// Refuses what cannot be meant.
     ///
     /// # Errors
     /// Names the option and what to do.
     pub(super) fn check(&self, input: Option<&Path>, format: FormatArg) -> Result<()> {
-        if let Some(frames) = self.frames.filter(|n| !(1..=MOST_FRAMES).contains(n)) {
+        if let Some(frames) = self.states.frames.filter(|n| !(1..=MOST_FRAMES).contains(n)) {
             bail!("--frames {frames}: give a number from 1 to {MOST_FRAMES}");
         }
-        if self.frames.is_some() && !self.has_frames() {
+        if self.states.frames.is_some() && !self.states.has_pictures() && !self.plays() {
             bail!(
-                "--frames says how many states to show, and nothing shows them: add --stills, --animation, --apng or --sheet"
+                "--frames says how many states to show, and the drawing in -o is the last one alone: add --stills, \
+                 --animation, --apng or --sheet, or leave -o out for a drawing that plays on standard output"
             );
         }
         let to_stdout = Path::new("-");
@@ -109,80 +131,90 @@ impl OutputArgs {
         Ok(())
     }
 
+    /// Whether all states go to standard output as one drawing that plays.
+    pub(super) fn plays(&self) -> bool {
+        self.output.is_none() && self.states.frames.is_some() && !self.states.has_pictures()
+    }
+
     /// How many states to record.
     pub(super) fn frame_count(&self) -> usize {
-        match self.frames {
+        match self.states.frames {
             Some(n) => usize::try_from(n).unwrap_or(1).max(1),
-            None if self.has_frames() => DEFAULT_FRAMES,
+            None if self.states.has_pictures() => DEFAULT_FRAMES,
             None => 1,
         }
     }
 
     pub(super) fn spacing(&self) -> Spacing {
-        match self.frames_by {
+        match self.states.frames_by {
             FramesByArg::Time => Spacing::Time,
             FramesByArg::Area => Spacing::Area,
         }
-    }
-
-    fn has_frames(&self) -> bool {
-        self.stills.is_some() || self.animation.is_some() || self.apng.is_some() || self.sheet.is_some()
     }
 
     /// Where the last state goes.
     fn last(&self) -> Option<&Path> {
         match &self.output {
             Some(path) => Some(path),
-            None if self.has_frames() => None,
+            None if self.plays() || self.states.has_pictures() => None,
             None => Some(Path::new("-")),
         }
     }
 
+    /// Where the animation goes.
+    fn animation(&self) -> Option<&Path> {
+        if self.plays() { Some(Path::new("-")) } else { self.states.animation.as_deref() }
+    }
+
     fn single_files(&self) -> impl Iterator<Item = &Path> {
-        let pictures = [&self.animation, &self.apng, &self.sheet];
-        self.last().into_iter().chain(pictures.into_iter().filter_map(|path| path.as_deref()))
+        let pictures = [self.animation(), self.states.apng.as_deref(), self.states.sheet.as_deref()];
+        self.last().into_iter().chain(pictures.into_iter().flatten())
     }
 
     fn still_paths(&self) -> Vec<PathBuf> {
         let n = self.frame_count();
-        self.stills.iter().flat_map(|pattern| (1..=n).map(|k| still_path(pattern, k, n))).collect()
+        self.states.stills.iter().flat_map(|pattern| (1..=n).map(|k| still_path(pattern, k, n))).collect()
     }
 
-    /// Writes all that is asked for, or nothing; `frames` are of `drawing`, and at least one. Gives the files.
+    /// Writes all that is asked for, or nothing; `frames` are of what is chosen, and at least one. Gives the files.
     ///
     /// # Errors
     /// Names the file, or says why there is no picture.
-    pub(super) fn write(&self, drawing: &Drawing, frames: &[Frame]) -> Result<Vec<PathBuf>> {
+    pub(super) fn write(&self, parts: &Parts, frames: &[Frame]) -> Result<Vec<PathBuf>> {
         let mut contents: Vec<(PathBuf, Vec<u8>)> = Vec::new();
         let mut add = |path: &Path, bytes: Vec<u8>| contents.push((path.to_owned(), bytes));
         if let (Some(path), Some(last)) = (self.last(), frames.last()) {
-            add(path, svg::write(drawing, &last.region).into_bytes());
+            add(path, svg::write_parts(parts, &last.region, None).into_bytes());
         }
         for (path, frame) in self.still_paths().iter().zip(frames) {
-            add(path, svg::write(drawing, &frame.region).into_bytes());
+            add(path, svg::write_parts(parts, &frame.region, None).into_bytes());
         }
-        if let Some(path) = &self.sheet {
-            let captions = time_captions(frames);
-            let cell = |(frame, caption)| Cell { caption, before: &drawing.region, after: state(frame) };
-            let cells: Vec<Cell> = frames.iter().zip(captions).map(cell).collect();
-            let sheet = preview::contact_sheet(&cells, self.columns.map(usize::from), self.size);
-            add(path, sheet.context("--sheet")?);
+        let start = Frame { time: 0.0, region: parts.chosen().region.clone() };
+        let shown: Vec<Frame> = std::iter::once(&start).chain(frames).cloned().collect();
+        let seconds = seconds(shown.len());
+        if let Some(path) = self.animation() {
+            let still = |((frame, caption), &seconds)| Still { region: state(frame), caption, seconds };
+            let stills: Vec<Still> = shown.iter().zip(time_captions(&shown)).zip(&seconds).map(still).collect();
+            add(path, svg::animate_parts(parts, &stills).into_bytes());
         }
-        if self.animation.is_some() || self.apng.is_some() {
-            let mut shown = vec![Frame { time: 0.0, region: drawing.region.clone() }];
-            shown.extend_from_slice(frames);
-            let captions = time_captions(&shown);
-            let seconds = seconds(shown.len());
-            let parts = || shown.iter().zip(&captions).zip(&seconds).map(|((f, c), &s)| (&f.region, c.clone(), s));
-            if let Some(path) = &self.animation {
-                let stills: Vec<Still> =
-                    parts().map(|(region, caption, seconds)| Still { region, caption, seconds }).collect();
-                add(path, svg::animate(drawing, &stills).into_bytes());
+        if self.states.sheet.is_some() || self.states.apng.is_some() {
+            // Pictures show what stands around as well.
+            let whole: Vec<Frame> =
+                shown.iter().map(|f| Frame { time: f.time, region: among(parts, &f.region) }).collect();
+            // The first of them is the drawing itself.
+            let before = &whole[0].region;
+            if let Some(path) = &self.states.sheet {
+                let captions = time_captions(frames);
+                let cell = |(frame, caption)| Cell { caption, before, after: state(frame) };
+                let cells: Vec<Cell> = whole[1..].iter().zip(captions).map(cell).collect();
+                let columns = self.states.columns.map(usize::from);
+                add(path, preview::contact_sheet(&cells, columns, self.size).context("--sheet")?);
             }
-            if let Some(path) = &self.apng {
-                let pictures: Vec<Picture> =
-                    parts().map(|(region, caption, seconds)| Picture { region, caption, seconds }).collect();
-                add(path, preview::animation(&drawing.region, &pictures, self.size).context("--apng")?);
+            if let Some(path) = &self.states.apng {
+                let captions = time_captions(&whole);
+                let picture = |((frame, caption), &seconds)| Picture { region: state(frame), caption, seconds };
+                let pictures: Vec<Picture> = whole.iter().zip(captions).zip(&seconds).map(picture).collect();
+                add(path, preview::animation(before, &pictures, self.size).context("--apng")?);
             }
         }
         let borrowed: Vec<output::Content> =
@@ -194,6 +226,13 @@ impl OutputArgs {
 
 fn state(frame: &Frame) -> &Region {
     &frame.region
+}
+
+/// A state of what is chosen with all other parts.
+fn among(parts: &Parts, state: &Region) -> Region {
+    let others = parts.parts.iter().enumerate().filter(|(k, _)| *k != parts.chosen);
+    let others = others.flat_map(|(_, part)| &part.drawing.region.rings);
+    Region::new(state.rings.iter().chain(others).cloned().collect())
 }
 
 /// For how long each of `n` states is shown, the first of which is the drawing itself.

@@ -7,8 +7,9 @@ use super::{BoundArg, FlowOptions, OperationArg};
 use crate::cli::close::spread;
 use crate::flow::End;
 use crate::io::svg::Drawing;
-use crate::plane::{RadiusField, TopologyCount};
+use crate::plane::TopologyCount;
 use crate::preview::Frame;
+use crate::units::Radius;
 
 /// What was done. Lengths are user units of the drawing, times squares of the (largest) radius; places have y down as in
 /// SVG.
@@ -54,13 +55,13 @@ impl Report {
     pub(super) fn new(
         drawing: &Drawing,
         options: &FlowOptions,
-        radius: &RadiusField,
+        range: [Radius; 2],
         edge: f64,
         recording: &Recording,
         frames: &[Frame],
         written: Vec<PathBuf>,
     ) -> Report {
-        let [smallest, largest] = radius.range().map(|r| r.get());
+        let [smallest, largest] = range.map(Radius::get);
         let mm = |units: f64| drawing.mm_per_unit.map(|mm| mm * units);
         let flow = &recording.report;
         let (before, after) = (&drawing.region, frames.last().map(|f| &f.region));
@@ -96,7 +97,7 @@ impl Report {
 
     /// Whether the flow got where it was to go without running into itself.
     pub(super) fn is_good(&self) -> bool {
-        self.end.is_none_or(End::is_limit) && self.contacts_units.is_empty()
+        is_good(self.end, self.contacts_units.len())
     }
 
     pub(super) fn lines(&self) -> String {
@@ -151,6 +152,10 @@ impl Report {
     }
 }
 
+fn is_good(end: Option<End>, contacts: usize) -> bool {
+    end.is_none_or(End::is_limit) && contacts == 0
+}
+
 fn ending(end: Option<End>) -> &'static str {
     match end {
         None => "stopped at --time",
@@ -159,5 +164,20 @@ fn ending(end: Option<End>) -> &'static str {
         Some(End::Contact) => "STOPPED where the boundary ran into itself",
         Some(End::Stalled) => "STALLED, vertices go on trembling; try another --edge-length or a smaller --time-step",
         Some(End::Singular) => "STOPPED, a step could not be solved; try a smaller --time-step",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flow_that_did_not_get_there_is_not_good_and_says_what_to_try() {
+        assert!([None, Some(End::Still), Some(End::Slow)].iter().all(|end| is_good(*end, 0) && !is_good(*end, 1)));
+        for end in [End::Stalled, End::Singular] {
+            assert!(!is_good(Some(end), 0));
+            assert!(ending(Some(end)).contains("--time-step"));
+        }
+        assert!(!is_good(Some(End::Contact), 0));
     }
 }

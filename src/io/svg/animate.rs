@@ -12,6 +12,7 @@ use std::ops::Range;
 use crate::plane::{Bounds, Region, Ring};
 
 use super::drawing::Drawing;
+use super::parts::Parts;
 use super::thin::thinned;
 use super::write::{PathWriter, write_link};
 
@@ -43,7 +44,19 @@ const INK: &str = "#343a40";
 /// The animation of `stills`, over the thin outlines of the drawing itself, as an SVG file in the drawing's user units; it
 /// starts again for ever. Without stills it shows the drawing.
 pub fn animate(drawing: &Drawing, stills: &[Still]) -> String {
-    let bounds = stills.iter().fold(drawing.region.bounds(), |b, s| b.union(s.region.bounds()));
+    animate_among(drawing, &[], stills)
+}
+
+/// The animation of `stills` of what is chosen of a drawing, as [`animate`] makes it; the other parts stand still.
+pub fn animate_parts(parts: &Parts, stills: &[Still]) -> String {
+    let others = parts.parts.iter().enumerate().filter(|(k, _)| *k != parts.chosen);
+    let others: Vec<&Drawing> = others.map(|(_, part)| &part.drawing).collect();
+    animate_among(parts.chosen(), &others, stills)
+}
+
+fn animate_among(drawing: &Drawing, others: &[&Drawing], stills: &[Still]) -> String {
+    let around = others.iter().fold(drawing.region.bounds(), |b, other| b.union(other.region.bounds()));
+    let bounds = stills.iter().fold(around, |b, s| b.union(s.region.bounds()));
     let diagonal = bounds.diagonal();
     let seconds: Vec<f64> = stills.iter().map(|s| s.seconds.max(0.0)).collect();
     let clock = Clock::new(&seconds);
@@ -58,6 +71,10 @@ pub fn animate(drawing: &Drawing, stills: &[Still]) -> String {
         }
     }
     let _ = writeln!(svg, "<g fill=\"{SOLID}\" fill-rule=\"evenodd\">");
+    for other in others {
+        let data = path_data(&PathWriter::new(other), &other.region.rings);
+        let _ = writeln!(svg, "<path d=\"{data}\"/>");
+    }
     for (data, shown) in &timeline.parts {
         svg += &clock.element("path", &format!("d=\"{data}\""), "", shown);
     }

@@ -42,7 +42,7 @@ mod thin;
 mod viewport;
 mod write;
 
-pub use animate::{Still, animate};
+pub use animate::{Still, animate, animate_parts};
 pub use area::read_area;
 pub use drawing::{Curve, CurveKind, Drawing, RADIUS_ATTRIBUTE, Sources, VertexSource};
 pub use error::{Found, MAX_COORDINATE, Place, ReadError, Warning, WarningKind};
