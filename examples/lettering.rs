@@ -58,7 +58,7 @@ fn states(word: &Region, obstacle: Obstacle) -> Result<Vec<Frame>, Box<dyn Error
         while flow.swept() < swept && flow.time() < whole.time() {
             flow.step(whole.time());
         }
-        frames.push(Frame { time: flow.time() / (RADIUS * RADIUS), region: flow.region() });
+        frames.push(Frame { time: flow.time() / (RADIUS * RADIUS), region: flow.rounded() });
     }
     Ok(frames)
 }

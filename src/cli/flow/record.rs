@@ -61,7 +61,7 @@ pub(super) fn record<'a>(
     if plan.spacing == Spacing::Time && plan.until.is_finite() {
         for k in 1..plan.frames {
             run(&mut flow, part(plan.until, k, plan.frames), f64::INFINITY, plan.until, &bar);
-            states.push((flow.time(), flow.region()));
+            states.push((flow.time(), flow.rounded()));
         }
     }
     run(&mut flow, plan.until, f64::INFINITY, plan.until, &bar);
@@ -75,10 +75,10 @@ pub(super) fn record<'a>(
                 Spacing::Time => run(&mut again, part(end, k, plan.frames), f64::INFINITY, end, &bar),
                 Spacing::Area => run(&mut again, end, part(swept, k, plan.frames), end, &bar),
             }
-            states.push((again.time(), again.region()));
+            states.push((again.time(), again.rounded()));
         }
     }
-    states.push((end, flow.region()));
+    states.push((end, flow.rounded()));
     Ok(Recording { states, report: flow.report() })
 }
 
