@@ -149,7 +149,8 @@ impl<F: Front<D>, const D: usize> Advance<F, D> {
             self.look();
         }
         self.shrunk += displaced.shrunk;
-        if self.shrunk > STALLED_SHRINKAGE * self.front.edge_length().powi(D as i32 - 1) {
+        let edge_length = self.front.edge_length();
+        if self.shrunk > STALLED_SHRINKAGE * edge_length.powi(D as i32 - 1) {
             (self.shrunk, self.progress_at) = (0.0, self.steps);
         }
         // A step that was cut short moves less than it would.
@@ -160,7 +161,11 @@ impl<F: Front<D>, const D: usize> Advance<F, D> {
             self.look();
             self.end(End::Stalled);
         }
-        self.shortest_edge = displaced.shortest_edge.clamp(self.front.edge_length(), GROWTH * self.shortest_edge);
+        // Where everything trembles there is no reason for other steps.
+        if displaced.shortest_edge.is_finite() {
+            self.shortest_edge =
+                displaced.shortest_edge.clamp(edge_length, GROWTH * self.shortest_edge.max(edge_length));
+        }
     }
 
     fn look(&mut self) {

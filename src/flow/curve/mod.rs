@@ -123,6 +123,8 @@ pub struct Report {
 /// A flow of an outline.
 pub struct CurveFlow<'a> {
     advance: Advance<CurveFront<'a>, 2>,
+    /// It closes what is empty, which is opening: so an outline and its counterpart stay alike to the last bit.
+    mirrored: bool,
     vertices: usize,
 }
 
@@ -156,9 +158,15 @@ impl<'a> CurveFlow<'a> {
                 return Err(FlowError::Radius { x: p.x, y: p.y, radius });
             }
         }
-        let front = CurveFront::new(Outline::new(region), obstacle, field, edge);
+        let mirrored = obstacle == Obstacle::OPENING;
+        let front = if mirrored {
+            CurveFront::new(Outline::new(&region.reversed()), Obstacle::CLOSING, field, edge)
+        } else {
+            CurveFront::new(Outline::new(region), obstacle, field, edge)
+        };
         Ok(CurveFlow {
             advance: Advance::new(front, time_step, tolerance, on_contact),
+            mirrored,
             vertices: region.vertex_count(),
         })
     }
@@ -197,12 +205,16 @@ impl<'a> CurveFlow<'a> {
     /// The outline as it is now, with arcs in place of the chords where it moved: a smooth curve through the vertices, from
     /// which they are at most a two-hundredth of an edge length away.
     pub fn rounded(&self) -> Region {
-        rounded::rounded(&self.advance.front)
+        self.turned(rounded::rounded(&self.advance.front))
     }
 
     /// The outline as it is now, with chords where it moved.
     pub fn region(&self) -> Region {
-        self.advance.front.outline.region()
+        self.turned(self.advance.front.outline.region())
+    }
+
+    fn turned(&self, region: Region) -> Region {
+        if self.mirrored { region.reversed() } else { region }
     }
 
     /// What is known so far.
