@@ -17,7 +17,7 @@
 //! | r/26 | .012 | .011 | .011 |
 //!
 //! So the error falls with h², and the time step does not matter for the limit: steps land on the bound ([`step`]).
-//! Without that the errors were .4 to 2.5, .1 to .9 and .05 to .5 h at r/13, nearly in proportion to tau / h².
+//! Without that the error is in proportion to tau / h².
 //!
 //! # The parts
 //!

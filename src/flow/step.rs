@@ -58,7 +58,7 @@ pub struct Displaced {
     pub moving: usize,
     /// The largest displacement, in edge lengths of the place.
     pub largest: f64,
-    /// The shortest edge length aimed at where vertices moved by more than [`TREMBLING`]; infinite where none did.
+    /// The shortest edge length aimed at where vertices moved by more than a millionth of it; infinite where none did.
     pub shortest_edge: f64,
     /// By how much the boundary became smaller (length of curves, area of surfaces).
     pub shrunk: f64,

@@ -1,7 +1,7 @@
 //! SVG drawings: read to a region that keeps the digits of the file, written back with the commands that did not change.
 //!
 //! What is read: every filled shape (paths, basic shapes, text), wherever transforms, nested `svg`, `use` and `symbol` put
-//! it, by its own fill rule, cut down to its clip paths, all united into one [`Region`]; strokes as areas on request.
+//! it, by its own fill rule, cut down to its clip paths, all united into one [`Region`](crate::plane::Region); strokes as areas on request.
 //! [`read`] guarantees:
 //!
 //! - a point under no transform has exactly the coordinates of the file, y negated; under transforms those of the exact
