@@ -13,14 +13,15 @@
 //!    where the disk touches two elements, and gives a new arc from foot to foot. Centres are solved at the exact radius.
 //! 6. In a thin neck filled from both sides the new arcs cross each other: see [`super::trim`].
 
+mod emit;
+
 use super::Scanned;
-use super::carrier::Carrier;
 use super::crossings::crossings;
 use super::locus::{Locus, Piece, RING_SPREAD, TINY, Touch};
 use super::loops::{Event, Itinerary};
-use super::track::Track;
+use super::solid::Solid;
 use super::trim::{Knot, Tip, trim};
-use crate::plane::{Arc, BoundaryIndex, Link, Point, Region, Ring, Turn, Vertex, VertexId};
+use crate::plane::{Point, Region};
 
 /// How much smaller the disk of the locus is: gaps within this of one diameter count as open, always.
 pub(super) const SHRINK: f64 = 1e-8;
@@ -37,14 +38,6 @@ pub(super) const ROUNDING_STEPS: f64 = 32.0;
 /// A stretch of the locus shorter than this, relative to the radius, is too near to its crossings for its distance to
 /// contradict anything.
 const TELLING: f64 = 1e-4;
-
-/// A centre solved at the exact radius lies at most this far, relative to it, from the crossing: sqrt(2 SHRINK) for
-/// carriers that touch, with room.
-const SAME_CENTER: f64 = 1e-3;
-
-/// A foot this near to the end of its link, relative to the radius, is the end: the arc then misses its tangent by half
-/// the square of it.
-const SNAP: f64 = 1e-7;
 
 /// Rings meet that overlap by twice this, relative to the radius: those that only touch have not run into each other.
 const MEETING: f64 = 1e-7;
@@ -65,7 +58,7 @@ pub(super) struct Merged {
 /// The morphological closing of `raw` by a disk of radius `r`. `prepared` is `raw` or any region between it and its
 /// closing. Coordinates are known to `resolution`.
 pub(super) fn merge(prepared: &Scanned, raw: &Region, r: f64, resolution: f64) -> Merged {
-    let solid = Solid::new(raw);
+    let solid = Solid::closing(raw);
     let mut best: Option<Merged> = None;
     for attempt in 0..ATTEMPTS {
         // Incommensurable steps: no coincidence survives two attempts.
@@ -87,7 +80,7 @@ pub(super) fn merge(prepared: &Scanned, raw: &Region, r: f64, resolution: f64) -
 /// Where the result of a scan along the curves may differ from the morphological closing of `raw`: crossings of the
 /// locus, and a point of every ring whose locus lies in D as a whole.
 pub(super) fn differences(scanned: &Region, raw: &Region, r: f64, resolution: f64) -> Vec<Point> {
-    let solid = Solid::new(raw);
+    let solid = Solid::closing(raw);
     // Nothing is walked here, and no vertex asked whether it is still where it was.
     let mut attempt = Attempt::new(scanned, None, &solid, r, r * (1.0 - SHRINK), resolution);
     let mut places: Vec<Point> = attempt.events.iter().step_by(2).map(|e| e.point).collect();
@@ -119,24 +112,6 @@ enum Verdict {
     Free,
     /// Inside D.
     Covered,
-}
-
-/// The input, for questions of distance.
-struct Solid {
-    index: BoundaryIndex,
-    /// 1 where the plane far away is solid, as it is when an opening is computed as the closing of the empty part.
-    far_winding: i32,
-}
-
-impl Solid {
-    fn new(raw: &Region) -> Solid {
-        Solid { index: BoundaryIndex::new(raw), far_winding: i32::from(raw.area() < 0.0) }
-    }
-
-    /// Whether `p` lies outside of the solid.
-    fn is_outside(&self, p: Point) -> bool {
-        self.index.winding_number(p) + self.far_winding <= 0
-    }
 }
 
 struct Attempt<'a> {
@@ -318,81 +293,6 @@ impl<'a> Attempt<'a> {
             .filter(|((_, verdict), range)| *verdict == Some(Verdict::Free) && !range.is_empty())
             .map(|((ring, _), _)| ring.vertices.iter().map(|&vertex| Knot { vertex, born: None }).collect())
             .collect()
-    }
-
-    /// The centre of the disk at the crossing of `e`, at the exact radius.
-    fn center(&mut self, e: u32) -> Point {
-        if let Some(center) = self.centers[e as usize] {
-            return center;
-        }
-        let event = self.events[e as usize];
-        let carrier = |e: u32| -> Carrier { Locus::carrier(self.piece(e), self.region, self.r) };
-        let roots = carrier(e).roots(&carrier(event.twin), SAME_CENTER * self.r);
-        let near = |c: &Point| (c - event.point).norm() <= SAME_CENTER * self.r;
-        let center = roots.nearest(event.point).filter(near).unwrap_or(event.point);
-        self.centers[e as usize] = Some(center);
-        self.centers[event.twin as usize] = Some(center);
-        center
-    }
-
-    /// The boundary that belongs to a walk of centres.
-    fn emit(&mut self, walk: &[u32], bridges: &mut Vec<Point>) -> Vec<Knot> {
-        let mut knots: Vec<Knot> = vec![];
-        for &e in walk {
-            let f = self.next(e);
-            let (start, end) = (self.center(e), self.center(f));
-            bridges.push(end);
-            let (first, last) = (*self.piece(e), *self.piece(f));
-            let ring = &self.region.rings[first.ring as usize];
-            let n = ring.len();
-            let same = self.on_one_piece(e);
-            let (i, j) = (first.node as usize, last.node as usize);
-            if first.touch == Touch::Link {
-                let (point, id) = self.foot(ring, i, start);
-                if same || point != ring.vertices[(i + 1) % n].point {
-                    let vertex = Vertex { point, id, ..ring.vertices[i] };
-                    knots.push(Knot { vertex, born: None });
-                }
-            }
-            let from = if first.touch == Touch::Vertex { i } else { (i + 1) % n };
-            let count = match (same, first.touch, last.touch) {
-                (true, Touch::Vertex, _) => 1,
-                (true, _, _) => 0,
-                // Back to the vertex where it began: the whole ring lies between.
-                (false, Touch::Vertex, Touch::Vertex) if i == j => n + 1,
-                _ => (j + n - from) % n + 1,
-            };
-            for k in 0..count {
-                knots.push(Knot { vertex: ring.vertices[(from + k) % n], born: None });
-            }
-            let arc = Link::Arc(Arc { center: end, radius: self.r, turn: Turn::Right });
-            if last.touch == Touch::Link {
-                let (point, id) = self.foot(ring, j, end);
-                if knots.last().is_none_or(|k| k.vertex.point != point) {
-                    knots.push(Knot { vertex: Vertex { id, ..Vertex::corner(point) }, born: None });
-                }
-            }
-            if let Some(knot) = knots.last_mut() {
-                knot.vertex.link = arc;
-                knot.born = Some(f);
-            }
-        }
-        knots
-    }
-
-    /// Where the disk about `center` touches the link that leaves vertex `i`; an end of the link keeps its identity.
-    fn foot(&self, ring: &Ring, i: usize, center: Point) -> (Point, Option<VertexId>) {
-        let track = Track::new(ring.segment(i));
-        let contact = track.contact(center);
-        let snap = SNAP * self.r;
-        let end = |v: &Vertex| (v.point, v.id);
-        if contact.at <= snap {
-            end(&ring.vertices[i])
-        } else if contact.at >= track.length - snap {
-            end(&ring.vertices[(i + 1) % ring.len()])
-        } else {
-            (contact.point, None)
-        }
     }
 
     /// Vertices where a kept stretch ends and the next one starts less than half a turn further: the two new arcs

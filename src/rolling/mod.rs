@@ -17,6 +17,7 @@ mod locus;
 mod loops;
 mod merge;
 mod scan;
+mod solid;
 mod track;
 mod trim;
 
@@ -25,6 +26,7 @@ use std::f64::consts::PI;
 use crate::plane::{BoundaryIndex, Bounds, Link, Point, Region, Segment, Vector, Vertex};
 use crate::units::Radius;
 use keep::Kept;
+use solid::Solid;
 
 /// What closing means where components come near each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -136,9 +138,8 @@ fn poking_out(input: &Region, result: &Region, r: f64, resolution: f64) -> usize
     const CONTAINED: f64 = 1e-9;
     const MOST_SAMPLES: f64 = 256.0;
     let slack = CONTAINED * r + merge::ROUNDING_STEPS * resolution;
-    let index = BoundaryIndex::new(result);
-    let far_winding = i32::from(input.area() < 0.0);
-    let is_out = |p: Point| index.winding_number(p) + far_winding <= 0 && !index.is_nearer(p, slack);
+    let solid = Solid::closed(result, input);
+    let is_out = |p: Point| solid.is_outside(p) && !solid.index.is_nearer(p, slack);
     // A cut into a link is of the size of the disk, or its end is out.
     let samples = |s: &Segment| (16.0 * s.length() / r).ceil().clamp(2.0, MOST_SAMPLES) as usize;
     input.segments().filter(|s| (0..samples(s)).any(|k| is_out(s.point_at(k as f64 / samples(s) as f64)))).count()

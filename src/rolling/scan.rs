@@ -12,6 +12,8 @@
 //! Tolerances, all relative to the radius: [`MIN_LINK`] along the boundary, [`HIDDEN`] across it; turns are measured by
 //! [`excess`].
 
+mod change;
+mod nodes;
 mod step;
 
 use std::collections::VecDeque;
@@ -19,8 +21,8 @@ use std::collections::VecDeque;
 use super::carrier::center_of_chord;
 use super::excess::{HALF_TURN, WHOLE_TURN, excess, follows_samples};
 use super::merge::{ROUNDING_STEPS, SHRINK};
-use super::track::Track;
-use crate::plane::{Arc, Joint, Link, Point, Ring, Segment, Turn, Vector, Vertex, right_normal};
+use crate::plane::{Joint, Link, Ring, Vector, Vertex};
+use nodes::{LinkKind, Node};
 
 /// A contact nearer than this to the end of a link, relative to the radius, is at the end. An error of this size along
 /// a tangent moves the boundary by half its square: 1e-14 r.
@@ -87,31 +89,6 @@ pub(super) fn scan(ring: &Ring, r: f64, mode: Mode, resolution: f64) -> Scan {
     scan
 }
 
-/// The outgoing link of a node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum LinkKind {
-    Line,
-    /// A minor arc of the disk about this centre on the right. It is the centre of the disk that touched: that of a circle
-    /// through the ends of a short arc is uncertain, and with it the directions at the ends.
-    Rolling(Point),
-    /// (Part of) the input arc that leaves this vertex of the ring.
-    Input(u32),
-}
-
-#[derive(Clone, Debug)]
-struct Node {
-    point: Point,
-    prev: u32,
-    next: u32,
-    link: LinkKind,
-    /// The input vertex that stands here unmoved.
-    source: Option<u32>,
-    /// Stored excess; `None` until first computed.
-    excess: Option<f64>,
-    alive: bool,
-    queued: bool,
-}
-
 struct Roller<'a> {
     input: &'a Ring,
     r: f64,
@@ -125,39 +102,6 @@ struct Roller<'a> {
     alive: usize,
     head: u32,
     exhausted: bool,
-}
-
-/// An arc of the disk to come.
-#[derive(Clone, Copy)]
-struct NewArc {
-    start: Point,
-    end: Point,
-    center: Point,
-}
-
-/// What to do at a node, decided before anything is changed.
-enum Step {
-    /// Take the node away; its neighbours are joined by an arc of the disk.
-    Kill,
-    /// Replace the corner between two links by an arc from contact to contact.
-    Corner { first: u32, last: u32, arc: NewArc },
-    /// Split the node in two with an arc between them.
-    Cut(NewArc),
-    /// Move the node along its outgoing link to the end of the arc; the incoming link becomes the arc.
-    Forward(NewArc, Meets),
-    /// Move the node back along its incoming link to the start of the arc; the outgoing link becomes the arc.
-    Back(NewArc, Meets),
-    /// Leave it.
-    Refuse,
-}
-
-/// How a new arc meets the link on which its node moved.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Meets {
-    /// Tangentially: the node is done.
-    Tangent,
-    /// At an angle: the node has to be looked at again.
-    Angle,
 }
 
 impl<'a> Roller<'a> {
@@ -183,14 +127,6 @@ impl<'a> Roller<'a> {
         let min_excess = MIN_EXCESS + ROUNDING_STEPS * resolution / r;
         let clear = r * (1.0 - CLEAR) - ROUNDING_STEPS * resolution;
         Roller { input, r, mode, min_excess, clear, nodes, queue: VecDeque::new(), alive: n, head: 0, exhausted: false }
-    }
-
-    fn node(&self, i: u32) -> &Node {
-        &self.nodes[i as usize]
-    }
-
-    fn node_mut(&mut self, i: u32) -> &mut Node {
-        &mut self.nodes[i as usize]
     }
 
     fn enqueue(&mut self, i: u32) {
@@ -223,16 +159,6 @@ impl<'a> Roller<'a> {
         if self.is_filled() {
             self.alive = 0;
         }
-    }
-
-    /// Whether nothing of the ring is left but arcs of the disk and at most one straight link: no disk fits.
-    fn is_filled(&self) -> bool {
-        if self.alive > 2 {
-            return false;
-        }
-        let head = self.node(self.head);
-        let is_input = |k: LinkKind| matches!(k, LinkKind::Input(_));
-        self.alive < 2 || !(is_input(head.link) || is_input(self.node(head.next).link))
     }
 
     /// Queues every vertex that the disk cannot follow.
@@ -271,51 +197,6 @@ impl<'a> Roller<'a> {
                 }
             }
             incoming = outgoing;
-        }
-    }
-
-    fn link(&self, a: u32) -> Link {
-        let node = self.node(a);
-        match node.link {
-            LinkKind::Line => Link::Line,
-            LinkKind::Input(i) => self.input.vertices[i as usize].link,
-            LinkKind::Rolling(center) => self.rolling_link(node.point, self.node(node.next).point, center),
-        }
-    }
-
-    fn segment(&self, a: u32) -> Segment {
-        let node = self.node(a);
-        Segment { start: node.point, end: self.node(node.next).point, link: self.link(a) }
-    }
-
-    /// The minor arc about `center`, or a line where the ends are so near to each other that rounding has exchanged them.
-    fn rolling_link(&self, start: Point, end: Point, center: Point) -> Link {
-        let (from, to) = (start - center, end - center);
-        if from.perp(&to) >= 0.0 && from.dot(&to) > 0.0 {
-            return Link::Line;
-        }
-        Link::Arc(Arc { center, radius: self.r, turn: Turn::Right })
-    }
-
-    fn track(&self, a: u32) -> Track {
-        Track::new(self.segment(a))
-    }
-
-    fn is_rolling(&self, a: u32) -> bool {
-        matches!(self.node(a).link, LinkKind::Rolling(_))
-    }
-
-    /// Direction of the link from `a` at its start (`at_start`) or end, of any length.
-    fn tangent(&self, a: u32, at_start: bool) -> Vector {
-        let node = self.node(a);
-        let (from, to) = (node.point, self.node(node.next).point);
-        match node.link {
-            LinkKind::Line => to - from,
-            LinkKind::Input(_) => {
-                let s = self.segment(a);
-                if at_start { s.start_tangent() } else { s.end_tangent() }
-            }
-            LinkKind::Rolling(center) => right_normal(if at_start { from } else { to } - center),
         }
     }
 
@@ -375,103 +256,6 @@ impl<'a> Roller<'a> {
         }
         let step = self.decide(a, b, c, excess);
         self.apply(step, a, b, c);
-    }
-
-    /// Joins `b` to `a` where they are one point.
-    fn absorb(&mut self, a: u32, b: u32, c: u32) {
-        if a == b || a == c {
-            return;
-        }
-        let (link, excess) = (self.node(b).link, self.node(b).excess);
-        self.node_mut(b).alive = false;
-        self.alive -= 1;
-        if self.head == b {
-            self.head = a;
-        }
-        let node = self.node_mut(a);
-        node.next = c;
-        node.link = link;
-        // Two turns at one place: neither stored value speaks for their sum.
-        node.excess = match (node.excess, excess) {
-            (Some(x), Some(y)) => Some(x.max(y)),
-            _ => Some(0.0),
-        };
-        self.node_mut(c).prev = a;
-        self.enqueue(a);
-        self.enqueue(c);
-    }
-
-    fn apply(&mut self, step: Step, a: u32, b: u32, c: u32) {
-        match step {
-            Step::Refuse => {
-                if self.mode == Mode::Geodesic {
-                    // The neighbour is the one that has to give way first.
-                    let neighbour = if self.is_rolling(a) { a } else { c };
-                    self.enqueue(neighbour);
-                }
-            }
-            Step::Kill => {
-                self.node_mut(b).alive = false;
-                self.alive -= 1;
-                if self.head == b {
-                    self.head = a;
-                }
-                let center = center_of_chord(self.node(a).point, self.node(c).point, self.r);
-                self.node_mut(a).next = c;
-                self.node_mut(a).link = LinkKind::Rolling(center);
-                self.node_mut(c).prev = a;
-                self.enqueue(c);
-                self.enqueue(a);
-            }
-            Step::Corner { first, last, arc } => {
-                self.move_to(first, arc.start);
-                self.move_to(last, arc.end);
-                self.node_mut(first).link = LinkKind::Rolling(arc.center);
-            }
-            Step::Cut(arc) => {
-                let link = self.node(b).link;
-                let made = self.nodes.len() as u32;
-                self.move_to(b, arc.start);
-                let node = self.node_mut(b);
-                node.link = LinkKind::Rolling(arc.center);
-                node.next = made;
-                self.nodes.push(Node {
-                    point: arc.end,
-                    prev: b,
-                    next: c,
-                    link,
-                    source: None,
-                    excess: Some(0.0),
-                    alive: true,
-                    queued: false,
-                });
-                self.node_mut(c).prev = made;
-                self.alive += 1;
-            }
-            Step::Forward(arc, meets) => {
-                self.move_to(b, arc.end);
-                self.node_mut(a).link = LinkKind::Rolling(arc.center);
-                if meets == Meets::Angle {
-                    self.enqueue(b);
-                }
-                self.enqueue(a);
-            }
-            Step::Back(arc, meets) => {
-                self.move_to(b, arc.start);
-                self.node_mut(b).link = LinkKind::Rolling(arc.center);
-                if meets == Meets::Angle {
-                    self.enqueue(b);
-                }
-                self.enqueue(c);
-            }
-        }
-    }
-
-    fn move_to(&mut self, i: u32, p: Point) {
-        let node = self.node_mut(i);
-        node.point = p;
-        node.source = None;
-        node.excess = Some(0.0);
     }
 
     /// Whether no node is left that the disk cannot follow.

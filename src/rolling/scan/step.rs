@@ -1,6 +1,8 @@
 //! What to do at one node: where a new arc of the disk goes, decided before anything is changed.
 
-use super::{HIDDEN, LinkKind, MIN_EXCESS, MIN_LINK, Meets, Mode, NewArc, Roller, Step};
+use super::change::{Meets, NewArc, Step};
+use super::nodes::LinkKind;
+use super::{HIDDEN, MIN_EXCESS, MIN_LINK, Mode, Roller};
 use crate::plane::{Point, Segment, left_normal, right_normal};
 use crate::rolling::carrier::{Carrier, center_of_chord};
 use crate::rolling::excess::{HALF_TURN, half_turn_tangent};
@@ -30,31 +32,19 @@ impl Roller<'_> {
                     self.curved_corner(a, b, c, &left, &right)
                 }
             }
-            (false, true) => {
-                let d = self.node(c).next;
-                let left = self.track(a);
-                if !self.is_rolling(c)
-                    && d != a
-                    && d != b
-                    && let Some(arc) = self.corner(a, c)
-                {
-                    return Step::Corner { first: b, last: c, arc };
-                }
-                self.slide_back(a, b, c, &left)
-            }
-            (true, false) => {
-                let z = self.node(a).prev;
-                let right = self.track(b);
-                if !self.is_rolling(z)
-                    && z != c
-                    && z != b
-                    && let Some(arc) = self.corner(z, b)
-                {
-                    return Step::Corner { first: a, last: b, arc };
-                }
-                self.slide_forward(a, b, c, &right)
-            }
+            (false, true) => self.corner_over(b).unwrap_or_else(|| self.slide_back(a, b, c, &self.track(a))),
+            (true, false) => self.corner_over(a).unwrap_or_else(|| self.slide_forward(a, b, c, &self.track(b))),
         }
+    }
+
+    /// The corner between the links before and after an arc of the disk, which leaves node `over` and goes.
+    fn corner_over(&self, over: u32) -> Option<Step> {
+        let (first, last) = (self.node(over).prev, self.node(over).next);
+        // In a ring of three links or fewer the two meet elsewhere, too.
+        if first == last || self.node(last).next == first || self.is_rolling(first) || self.is_rolling(last) {
+            return None;
+        }
+        Some(Step::Corner { first: over, last, arc: self.corner(first, last)? })
     }
 
     /// Two straight links: the disk touches both at the same distance from the corner.
