@@ -1,11 +1,16 @@
 //! Every ring by itself: the limit of the flow, which sees distance along the curve only.
 //!
 //! The flow moves a curve outward, and where two curves come to cross each other there is no region any more that they
-//! bound. So rings are rolled along one by one; those that run into each other, or one into itself, are closed in the
-//! plane, together and without the others. That holds whatever the flow could fill, and bounds a region.
+//! bound. So rings are rolled along one by one; those that have run into each other, or one into itself, are replaced by
+//! the boundary of what they hold together, and the disk rolls along that: away from the crossings nothing of them
+//! changes. What that does not settle is closed in the plane, ring by ring, which holds whatever the flow could fill.
 
-use super::{close_merged, merge, scan};
+use super::unite::Meetings;
+use super::{close_merged, scan};
 use crate::plane::{Point, Region, Ring};
+
+/// How often rings are united that have run into each other, before they are closed in the plane.
+const ROUNDS: usize = 8;
 
 /// What becomes of some rings of the input.
 struct Part {
@@ -22,7 +27,7 @@ pub(super) struct Kept<'a> {
     r: f64,
     resolution: f64,
     parts: Vec<Part>,
-    /// A point of every ring that was closed in the plane.
+    /// Where rings were united, and a point of every ring that was closed in the plane.
     pub(super) places: Vec<Point>,
     /// What those closings say against themselves.
     pub(super) contradictions: usize,
@@ -50,40 +55,66 @@ impl<'a> Kept<'a> {
         Region::new(self.parts.iter().flat_map(|part| &part.rings).cloned().collect())
     }
 
-    /// Closes together what has run into each other, until nothing does.
-    pub(super) fn part_ways(&mut self) {
-        loop {
+    /// Unites what has run into each other, until nothing does.
+    pub(super) fn unite(&mut self) {
+        // An opening is the closing of what is empty, and far away that is solid.
+        let far = i32::from(self.input.area() < 0.0);
+        for round in 0.. {
+            let region = self.region();
             let owner: Vec<usize> =
                 self.parts.iter().enumerate().flat_map(|(k, part)| part.rings.iter().map(move |_| k)).collect();
+            // What was closed in the plane and seems to cross itself does so by rounding.
+            let counts = |i: usize, j: usize| owner[i] != owner[j] || !self.parts[owner[i]].merged;
+            let meetings = Meetings::new(&region, self.r, self.resolution, counts);
             let mut groups = Groups::new(self.parts.len());
-            let mut affected = vec![false; self.parts.len()];
-            for (i, j) in merge::meetings(&self.region(), self.r, self.resolution) {
-                let (a, b) = (owner[i], owner[j]);
-                // What was closed in the plane and seems to cross itself does so by rounding.
-                if a == b && self.parts[a].merged {
-                    continue;
+            let mut met = Met { parts: vec![false; self.parts.len()], rings: vec![false; owner.len()] };
+            for (i, j, place) in meetings.places() {
+                for ring in [i, j] {
+                    met.rings[ring] = true;
+                    met.parts[owner[ring]] = true;
                 }
-                affected[a] = true;
-                affected[b] = true;
-                groups.join(a, b);
+                groups.join(owner[i], owner[j]);
+                self.places.push(place);
             }
-            // Every round leaves fewer parts, or fewer that are not final: this ends.
-            if !affected.contains(&true) {
+            if !met.parts.contains(&true) {
                 return;
             }
-            let parts = std::mem::take(&mut self.parts);
-            let mut together: Vec<Vec<usize>> = vec![vec![]; parts.len()];
-            for (k, part) in parts.iter().enumerate() {
-                together[groups.first(k)].extend(&part.of);
+            // Every round in the plane leaves fewer parts, or fewer that are not final: this ends.
+            let united = if round < ROUNDS { meetings.united(far) } else { None };
+            let united = united.map(|rings| rings.into_iter().map(|u| (groups.first(owner[u.of]), u.ring)).collect());
+            self.regroup(&met, &mut groups, united);
+        }
+    }
+
+    /// Every group of parts that have met becomes one part: of the rings that did not meet and those that were united, by
+    /// the first part of their group, or closed in the plane.
+    fn regroup(&mut self, met: &Met, groups: &mut Groups, united: Option<Vec<(usize, Ring)>>) {
+        let parts = std::mem::take(&mut self.parts);
+        let mut together: Vec<Part> = parts.iter().map(|_| Part { of: vec![], rings: vec![], merged: false }).collect();
+        let mut ring_met = met.rings.iter();
+        for (k, part) in parts.into_iter().enumerate() {
+            let group = &mut together[groups.first(k)];
+            group.of.extend(part.of);
+            group.merged = part.merged;
+            group.rings.extend(part.rings.into_iter().filter(|_| ring_met.next() != Some(&true)));
+        }
+        let is_united = united.is_some();
+        let mut rolled = vec![true; together.len()];
+        for (group, ring) in united.into_iter().flatten() {
+            let scan = scan::scan(&ring, self.r, scan::Mode::Geodesic, self.resolution);
+            rolled[group] &= scan.finished;
+            together[group].rings.extend(Some(scan.ring).filter(|ring| !ring.is_empty()));
+        }
+        for (k, part) in together.into_iter().enumerate() {
+            if part.of.is_empty() {
+                continue;
             }
-            for (k, part) in parts.into_iter().enumerate() {
-                if !affected[k] {
-                    self.parts.push(part);
-                } else if groups.first(k) == k {
-                    let part = self.closed(std::mem::take(&mut together[k]));
-                    self.parts.push(part);
-                }
-            }
+            let part = match (met.parts[k], is_united && rolled[k]) {
+                (false, _) => part,
+                (true, true) => Part { merged: false, ..part },
+                (true, false) => self.closed(part.of),
+            };
+            self.parts.push(part);
         }
     }
 
@@ -95,6 +126,13 @@ impl<'a> Kept<'a> {
         self.contradictions += outcome.contradictions;
         Part { of, rings: outcome.region.rings, merged: true }
     }
+}
+
+/// What has run into something.
+struct Met {
+    parts: Vec<bool>,
+    /// Of all rings, those of one part after those of the part before.
+    rings: Vec<bool>,
 }
 
 /// Which parts belong together.

@@ -16,10 +16,12 @@ mod keep;
 mod locus;
 mod loops;
 mod merge;
+mod samples;
 mod scan;
 mod solid;
 mod track;
 mod trim;
+mod unite;
 
 use std::f64::consts::PI;
 
@@ -35,7 +37,7 @@ pub enum Topology {
     /// The morphological closing, as a cutter sees it: components merge, holes fill, narrow inlets close.
     Merge,
     /// The flow's own limit: every ring by itself, measured along the curve. Rings that run into each other, or one into
-    /// itself, are closed in the plane by themselves.
+    /// itself, become one where they do, and the disk rolls on along that.
     Keep,
 }
 
@@ -119,7 +121,7 @@ fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
     let mut differences = merge::differences(&kept.region(), input, r, resolution);
     // Rings that cross have a locus that does.
     if !differences.is_empty() {
-        kept.part_ways();
+        kept.unite();
     }
     differences.append(&mut kept.places);
     let (region, absorbed) = without_absorbed(kept.region(), input.area() < 0.0);

@@ -19,8 +19,9 @@ mod step;
 use std::collections::VecDeque;
 
 use super::carrier::center_of_chord;
-use super::excess::{HALF_TURN, WHOLE_TURN, excess, follows_samples};
+use super::excess::{HALF_TURN, WHOLE_TURN, excess};
 use super::merge::{ROUNDING_STEPS, SHRINK};
+use super::samples::is_followed;
 use crate::plane::{Joint, Link, Ring, Vector, Vertex};
 use nodes::{LinkKind, Node};
 
@@ -189,9 +190,7 @@ impl<'a> Roller<'a> {
             if dot < 0.0 && self.is_horn_of_empty(i as u32, u, v) {
                 self.enqueue(i as u32);
             } else if cross < 0.0 && (dot < 0.0 || -cross > self.min_excess * dot) {
-                let smooth = self.input.vertices[i].joint == Joint::Smooth
-                    && follows_samples(u, v, incoming.length(), outgoing.length(), self.r);
-                if !smooth {
+                if !is_followed(self.input, i, self.r) {
                     self.node_mut(i as u32).excess = Some(excess(u, v));
                     self.enqueue(i as u32);
                 }
@@ -264,11 +263,10 @@ impl<'a> Roller<'a> {
         for _ in 0..self.alive {
             let (u, v) = (self.tangent(self.node(i).prev, false), self.tangent(i, true));
             if excess(u, v) > UNSETTLED {
-                let smooth = self.node(i).source.is_some_and(|s| {
-                    let (l1, l2) = (self.segment(self.node(i).prev).length(), self.segment(i).length());
-                    self.input.vertices[s as usize].joint == Joint::Smooth && follows_samples(u, v, l1, l2, self.r)
-                });
-                if !smooth {
+                // The input tells of the curve: an arc of the disk may have taken a part of the chord since.
+                let are_chords = !self.is_rolling(self.node(i).prev) && !self.is_rolling(i);
+                let is_sample = |s: u32| is_followed(self.input, s as usize, self.r);
+                if !(are_chords && self.node(i).source.is_some_and(is_sample)) {
                     return false;
                 }
             }
