@@ -10,15 +10,23 @@ use super::{close_merged, scan};
 use crate::plane::{Point, Region, Ring};
 
 /// How often rings are united that have run into each other, before they are closed in the plane.
-const ROUNDS: usize = 8;
+pub(super) const ROUNDS: usize = 8;
 
 /// What becomes of some rings of the input.
+#[derive(Default)]
 struct Part {
     /// Which rings of the input.
     of: Vec<usize>,
-    rings: Vec<Ring>,
+    rings: Vec<Rolled>,
     /// Whether they are closed in the plane: that is final.
     merged: bool,
+}
+
+/// A ring that the disk has been rolled along.
+struct Rolled {
+    ring: Ring,
+    /// Whether to the end: where a curve has run into itself the disk finds no way on.
+    finished: bool,
 }
 
 /// The rings of a region, rolled along.
@@ -37,26 +45,31 @@ impl<'a> Kept<'a> {
     pub(super) fn new(input: &'a Region, r: f64, resolution: f64) -> Kept<'a> {
         let mut kept = Kept { input, r, resolution, parts: vec![], places: vec![], contradictions: 0 };
         for (k, ring) in input.rings.iter().enumerate() {
-            let scan = scan::scan(ring, r, scan::Mode::Geodesic, resolution);
-            let part = if scan.finished {
-                // Nothing is left of a hole that is filled.
-                let rings = if scan.ring.is_empty() { vec![] } else { vec![scan.ring] };
-                Part { of: vec![k], rings, merged: false }
-            } else {
-                kept.closed(vec![k])
-            };
-            kept.parts.push(part);
+            let rings = kept.rolled(ring).into_iter().collect();
+            kept.parts.push(Part { of: vec![k], rings, merged: false });
         }
         kept
     }
 
-    /// What the rings have become.
-    pub(super) fn region(&self) -> Region {
-        Region::new(self.parts.iter().flat_map(|part| &part.rings).cloned().collect())
+    /// A ring with the disk rolled along it; nothing is left of a hole that is filled.
+    fn rolled(&self, ring: &Ring) -> Option<Rolled> {
+        let scan = scan::scan(ring, self.r, scan::Mode::Geodesic, self.resolution);
+        (!scan.ring.is_empty() || !scan.finished).then_some(Rolled { ring: scan.ring, finished: scan.finished })
     }
 
-    /// Unites what has run into each other, until nothing does.
-    pub(super) fn unite(&mut self) {
+    /// What the rings have become.
+    pub(super) fn region(&self) -> Region {
+        Region::new(self.parts.iter().flat_map(|part| &part.rings).map(|rolled| rolled.ring.clone()).collect())
+    }
+
+    /// Whether the disk has been rolled along every ring to its end.
+    pub(super) fn is_finished(&self) -> bool {
+        self.parts.iter().flat_map(|part| &part.rings).all(|rolled| rolled.finished)
+    }
+
+    /// Unites what has run into each other, until nothing does, in so many rounds; then what still does is closed in the
+    /// plane.
+    pub(super) fn unite(&mut self, rounds: usize) {
         // An opening is the closing of what is empty, and far away that is solid.
         let far = i32::from(self.input.area() < 0.0);
         for round in 0.. {
@@ -76,44 +89,40 @@ impl<'a> Kept<'a> {
                 groups.join(owner[i], owner[j]);
                 self.places.push(place);
             }
-            if !met.parts.contains(&true) {
+            // Nothing but the plane helps where the disk finds no way on and nothing crosses.
+            let rings = self.parts.iter().flat_map(|part| &part.rings).zip(&met.rings);
+            let stuck: Vec<usize> =
+                rings.zip(&owner).filter(|((rolled, met), _)| !rolled.finished && !**met).map(|(_, &k)| k).collect();
+            if stuck.is_empty() && !met.parts.contains(&true) {
                 return;
             }
             // Every round in the plane leaves fewer parts, or fewer that are not final: this ends.
-            let united = if round < ROUNDS { meetings.united(far) } else { None };
-            let united = united.map(|rings| rings.into_iter().map(|u| (groups.first(owner[u.of]), u.ring)).collect());
-            self.regroup(&met, &mut groups, united);
+            let (united, open) = if round < rounds { meetings.united(far) } else { (vec![], vec![]) };
+            let mut hopeless = if round < rounds { vec![false; self.parts.len()] } else { met.parts.clone() };
+            let open = open.into_iter().map(|ring| owner[ring]);
+            stuck.into_iter().chain(open).for_each(|k| hopeless[groups.first(k)] = true);
+            let united = united.into_iter().map(|u| (groups.first(owner[u.of]), u.ring)).collect();
+            self.regroup(&met, &mut groups, united, &hopeless);
         }
     }
 
-    /// Every group of parts that have met becomes one part: of the rings that did not meet and those that were united, by
-    /// the first part of their group, or closed in the plane.
-    fn regroup(&mut self, met: &Met, groups: &mut Groups, united: Option<Vec<(usize, Ring)>>) {
+    /// Every group of parts that have met becomes one part: of the rings that did not meet and those that were `united`, by
+    /// the first part of their group; or it is closed in the plane if that first part is `hopeless`.
+    fn regroup(&mut self, met: &Met, groups: &mut Groups, united: Vec<(usize, Ring)>, hopeless: &[bool]) {
         let parts = std::mem::take(&mut self.parts);
-        let mut together: Vec<Part> = parts.iter().map(|_| Part { of: vec![], rings: vec![], merged: false }).collect();
+        let mut together: Vec<Part> = parts.iter().map(|_| Part::default()).collect();
         let mut ring_met = met.rings.iter();
         for (k, part) in parts.into_iter().enumerate() {
             let group = &mut together[groups.first(k)];
             group.of.extend(part.of);
-            group.merged = part.merged;
+            group.merged = part.merged && !met.parts[k];
             group.rings.extend(part.rings.into_iter().filter(|_| ring_met.next() != Some(&true)));
         }
-        let is_united = united.is_some();
-        let mut rolled = vec![true; together.len()];
-        for (group, ring) in united.into_iter().flatten() {
-            let scan = scan::scan(&ring, self.r, scan::Mode::Geodesic, self.resolution);
-            rolled[group] &= scan.finished;
-            together[group].rings.extend(Some(scan.ring).filter(|ring| !ring.is_empty()));
+        for (group, ring) in united.into_iter().filter(|(group, _)| !hopeless[*group]) {
+            together[group].rings.extend(self.rolled(&ring));
         }
-        for (k, part) in together.into_iter().enumerate() {
-            if part.of.is_empty() {
-                continue;
-            }
-            let part = match (met.parts[k], is_united && rolled[k]) {
-                (false, _) => part,
-                (true, true) => Part { merged: false, ..part },
-                (true, false) => self.closed(part.of),
-            };
+        for (part, hopeless) in together.into_iter().zip(hopeless).filter(|(part, _)| !part.of.is_empty()) {
+            let part = if *hopeless { self.closed(part.of) } else { part };
             self.parts.push(part);
         }
     }
@@ -124,7 +133,8 @@ impl<'a> Kept<'a> {
         self.places.extend(rings.iter().filter_map(|ring| ring.vertices.first()).map(|v| v.point));
         let outcome = close_merged(&Region::new(rings), self.r, self.resolution);
         self.contradictions += outcome.contradictions;
-        Part { of, rings: outcome.region.rings, merged: true }
+        let rings = outcome.region.rings.into_iter().map(|ring| Rolled { ring, finished: true }).collect();
+        Part { of, rings, merged: true }
     }
 }
 

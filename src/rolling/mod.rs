@@ -117,11 +117,18 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
 }
 
 fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
+    let outcome = kept(input, r, resolution, keep::ROUNDS);
+    // What is united has no proof but its result.
+    if outcome.contradictions == 0 { outcome } else { kept(input, r, resolution, 0) }
+}
+
+/// Every ring by itself; those that have run into each other are united, in so many rounds.
+fn kept(input: &Region, r: f64, resolution: f64, rounds: usize) -> Outcome {
     let mut kept = Kept::new(input, r, resolution);
     let mut differences = merge::differences(&kept.region(), input, r, resolution);
     // Rings that cross have a locus that does.
-    if !differences.is_empty() {
-        kept.unite();
+    if !differences.is_empty() || !kept.is_finished() {
+        kept.unite(rounds);
     }
     differences.append(&mut kept.places);
     let (region, absorbed) = without_absorbed(kept.region(), input.area() < 0.0);

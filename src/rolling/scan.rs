@@ -23,6 +23,7 @@ use super::excess::{HALF_TURN, WHOLE_TURN, excess};
 use super::merge::{ROUNDING_STEPS, SHRINK};
 use super::samples::is_followed;
 use crate::plane::{Joint, Link, Ring, Vector, Vertex};
+use change::Step;
 use nodes::{LinkKind, Node};
 
 /// A contact nearer than this to the end of a link, relative to the radius, is at the end. An error of this size along
@@ -54,6 +55,9 @@ const WRAPPED: f64 = 0.6;
 
 /// Operations allowed: measured, 1.2 to 1.5 a vertex even where nearly all move.
 const OPERATIONS_PER_VERTEX: usize = 200;
+
+/// Visits without a change after which none will come, over the nodes that are left: nodes that refuse wake each other.
+const IDLE_ROUNDS: usize = 4;
 
 /// What the scan may take for granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,6 +144,7 @@ impl<'a> Roller<'a> {
 
     fn run(&mut self) {
         self.activate();
+        let mut idle = 0;
         let mut budget = OPERATIONS_PER_VERTEX * self.input.len() + 10_000;
         while let Some(b) = self.queue.pop_front() {
             self.node_mut(b).queued = false;
@@ -150,12 +155,12 @@ impl<'a> Roller<'a> {
                 self.alive = 0;
                 return;
             }
-            if budget == 0 {
+            if budget == 0 || idle > IDLE_ROUNDS * (self.alive + 1) {
                 self.exhausted = true;
                 return;
             }
             budget -= 1;
-            self.visit(b);
+            idle = if self.visit(b) { 0 } else { idle + 1 };
         }
         if self.is_filled() {
             self.alive = 0;
@@ -189,11 +194,12 @@ impl<'a> Roller<'a> {
             let (cross, dot) = (u.perp(&v), u.dot(&v));
             if dot < 0.0 && self.is_horn_of_empty(i as u32, u, v) {
                 self.enqueue(i as u32);
-            } else if cross < 0.0 && (dot < 0.0 || -cross > self.min_excess * dot) {
-                if !is_followed(self.input, i, self.r) {
-                    self.node_mut(i as u32).excess = Some(excess(u, v));
-                    self.enqueue(i as u32);
-                }
+            } else if cross < 0.0
+                && (dot < 0.0 || -cross > self.min_excess * dot)
+                && !is_followed(self.input, i, self.r)
+            {
+                self.node_mut(i as u32).excess = Some(excess(u, v));
+                self.enqueue(i as u32);
             }
             incoming = outgoing;
         }
@@ -225,13 +231,15 @@ impl<'a> Roller<'a> {
         curvature(a) + curvature(b) > 0.0
     }
 
-    fn visit(&mut self, b: u32) {
+    /// Does what there is to do at node `b`, and tells whether anything was.
+    fn visit(&mut self, b: u32) -> bool {
         let a = self.node(b).prev;
         let c = self.node(b).next;
         let min_link = COINCIDENT * self.r;
         // A link without length has no direction: its end is its start.
         if (self.node(b).point - self.node(a).point).norm_squared() <= min_link * min_link {
-            return self.absorb(a, b, c);
+            self.absorb(a, b, c);
+            return true;
         }
         let (arriving, leaving) = (self.tangent(a, false), self.tangent(b, true));
         let mut excess =
@@ -245,16 +253,18 @@ impl<'a> Roller<'a> {
             Mode::Geodesic if excess < before - WRAPPED => excess += WHOLE_TURN,
             Mode::Safe if excess < before - WRAPPED || excess > SAFE_EXCESS => {
                 self.node_mut(b).excess = Some(excess);
-                return;
+                return false;
             }
             _ => {}
         }
         self.node_mut(b).excess = Some(excess);
         if excess <= self.min_excess {
-            return;
+            return false;
         }
         let step = self.decide(a, b, c, excess);
+        let changes = !matches!(step, Step::Refuse);
         self.apply(step, a, b, c);
+        changes
     }
 
     /// Whether no node is left that the disk cannot follow.

@@ -65,9 +65,9 @@ impl<'a> Meetings<'a> {
         self.events.chunks_exact(2).map(|e| (self.ring(&e[0]), self.ring(&e[1]), e[0].point))
     }
 
-    /// What all rings that cross bound together, in a plane that winds `far` times around every place; `None` where
+    /// What all rings that cross bound together, in a plane that winds `far` times around every place; and rings of which
     /// rounding leaves it open.
-    pub(super) fn united(&self, far: i32) -> Option<Vec<United>> {
+    pub(super) fn united(&self, far: i32) -> (Vec<United>, Vec<usize>) {
         let index = BoundaryIndex::new(self.region);
         let itinerary = Itinerary::new(&self.events, |p| self.locus.pieces[p as usize].ring);
         // Drawn back into its own solid, the boundary of the union lies in that of no other.
@@ -79,20 +79,21 @@ impl<'a> Meetings<'a> {
             .collect();
         let mut walked = vec![false; self.events.len()];
         let mut united = vec![];
+        let mut open = vec![];
         for walk in itinerary.walks(&self.events, true) {
             let says = |answer: bool| walk.iter().any(|&e| bounds[e as usize] == Some(answer));
-            match (says(true), says(false)) {
-                (true, true) => return None,
-                (true, false) => {
-                    walk.iter().for_each(|&e| walked[e as usize] = true);
-                    let of = self.ring(&self.events[walk[0] as usize]);
-                    united.push(United { ring: self.along(&walk, &itinerary), of });
-                }
-                (false, _) => {}
+            let of = self.ring(&self.events[walk[0] as usize]);
+            if says(true) && says(false) {
+                open.push(of);
+            }
+            if says(true) {
+                walk.iter().for_each(|&e| walked[e as usize] = true);
+                united.push(United { ring: self.along(&walk, &itinerary), of });
             }
         }
-        let left_out = bounds.iter().zip(&walked).any(|(bounds, walked)| *bounds == Some(true) && !walked);
-        (!left_out).then_some(united)
+        let left_out = (0..self.events.len()).filter(|&e| bounds[e] == Some(true) && !walked[e]);
+        open.extend(left_out.map(|e| self.ring(&self.events[e])));
+        (united, open)
     }
 
     fn piece(&self, e: &Event) -> &Piece {
