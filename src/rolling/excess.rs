@@ -31,17 +31,6 @@ pub(super) fn excess(from: Vector, to: Vector) -> f64 {
     }
 }
 
-/// Whether a disk of radius `r` follows a concave curve at a sample where chords along `incoming` and `outgoing`
-/// (directions of any length) of lengths `l1` and `l2` meet: it touches both in the halves that meet there.
-pub(super) fn follows_samples(incoming: Vector, outgoing: Vector, l1: f64, l2: f64, r: f64) -> bool {
-    // Samples are evenly spaced in the parameter, not in length: a little room for that.
-    const UNEVEN: f64 = 1e-3;
-    // The tangent of half a radian: a greater turn is no sample of a curve.
-    const SHARP: f64 = 0.546;
-    let half = half_turn_tangent(incoming, outgoing);
-    half < SHARP && r * half <= 0.5 * l1.min(l2) * (1.0 + UNEVEN)
-}
-
 /// tan(e/2) for the right turn e from one direction to another: sin e / (1 + cos e).
 pub(super) fn half_turn_tangent(from: Vector, to: Vector) -> f64 {
     let (sine, cosine) = (-from.perp(&to), from.dot(&to));

@@ -1,19 +1,32 @@
 //! Every ring by itself: the limit of the flow, which sees distance along the curve only.
 //!
 //! The flow moves a curve outward, and where two curves come to cross each other there is no region any more that they
-//! bound. So rings are rolled along one by one; those that run into each other, or one into itself, are closed in the
-//! plane, together and without the others. That holds whatever the flow could fill, and bounds a region.
+//! bound. So rings are rolled along one by one; those that have run into each other, or one into itself, are replaced by
+//! the boundary of what they hold together, and the disk rolls along that: away from the crossings nothing of them
+//! changes. What that does not settle is closed in the plane, ring by ring, which holds whatever the flow could fill.
 
-use super::{close_merged, merge, scan};
+use super::unite::Meetings;
+use super::{close_merged, scan};
 use crate::plane::{Point, Region, Ring};
 
+/// How often rings are united that have run into each other, before they are closed in the plane.
+pub(super) const ROUNDS: usize = 8;
+
 /// What becomes of some rings of the input.
+#[derive(Default)]
 struct Part {
     /// Which rings of the input.
     of: Vec<usize>,
-    rings: Vec<Ring>,
+    rings: Vec<Rolled>,
     /// Whether they are closed in the plane: that is final.
     merged: bool,
+}
+
+/// A ring that the disk has been rolled along.
+struct Rolled {
+    ring: Ring,
+    /// Whether to the end: where a curve has run into itself the disk finds no way on.
+    finished: bool,
 }
 
 /// The rings of a region, rolled along.
@@ -22,7 +35,7 @@ pub(super) struct Kept<'a> {
     r: f64,
     resolution: f64,
     parts: Vec<Part>,
-    /// A point of every ring that was closed in the plane.
+    /// Where rings were united, and a point of every ring that was closed in the plane.
     pub(super) places: Vec<Point>,
     /// What those closings say against themselves.
     pub(super) contradictions: usize,
@@ -32,58 +45,85 @@ impl<'a> Kept<'a> {
     pub(super) fn new(input: &'a Region, r: f64, resolution: f64) -> Kept<'a> {
         let mut kept = Kept { input, r, resolution, parts: vec![], places: vec![], contradictions: 0 };
         for (k, ring) in input.rings.iter().enumerate() {
-            let scan = scan::scan(ring, r, scan::Mode::Geodesic, resolution);
-            let part = if scan.finished {
-                // Nothing is left of a hole that is filled.
-                let rings = if scan.ring.is_empty() { vec![] } else { vec![scan.ring] };
-                Part { of: vec![k], rings, merged: false }
-            } else {
-                kept.closed(vec![k])
-            };
-            kept.parts.push(part);
+            let rings = kept.rolled(ring).into_iter().collect();
+            kept.parts.push(Part { of: vec![k], rings, merged: false });
         }
         kept
     }
 
-    /// What the rings have become.
-    pub(super) fn region(&self) -> Region {
-        Region::new(self.parts.iter().flat_map(|part| &part.rings).cloned().collect())
+    /// A ring with the disk rolled along it; nothing is left of a hole that is filled.
+    fn rolled(&self, ring: &Ring) -> Option<Rolled> {
+        let scan = scan::scan(ring, self.r, scan::Mode::Geodesic, self.resolution);
+        (!scan.ring.is_empty() || !scan.finished).then_some(Rolled { ring: scan.ring, finished: scan.finished })
     }
 
-    /// Closes together what has run into each other, until nothing does.
-    pub(super) fn part_ways(&mut self) {
-        loop {
+    /// What the rings have become.
+    pub(super) fn region(&self) -> Region {
+        Region::new(self.parts.iter().flat_map(|part| &part.rings).map(|rolled| rolled.ring.clone()).collect())
+    }
+
+    /// Whether the disk has been rolled along every ring to its end.
+    pub(super) fn is_finished(&self) -> bool {
+        self.parts.iter().flat_map(|part| &part.rings).all(|rolled| rolled.finished)
+    }
+
+    /// Unites what has run into each other, until nothing does, in so many rounds; then what still does is closed in the
+    /// plane.
+    pub(super) fn unite(&mut self, rounds: usize) {
+        // An opening is the closing of what is empty, and far away that is solid.
+        let far = i32::from(self.input.area() < 0.0);
+        for round in 0.. {
+            let region = self.region();
             let owner: Vec<usize> =
                 self.parts.iter().enumerate().flat_map(|(k, part)| part.rings.iter().map(move |_| k)).collect();
+            // What was closed in the plane and seems to cross itself does so by rounding.
+            let counts = |i: usize, j: usize| owner[i] != owner[j] || !self.parts[owner[i]].merged;
+            let meetings = Meetings::new(&region, self.r, self.resolution, counts);
             let mut groups = Groups::new(self.parts.len());
-            let mut affected = vec![false; self.parts.len()];
-            for (i, j) in merge::meetings(&self.region(), self.r, self.resolution) {
-                let (a, b) = (owner[i], owner[j]);
-                // What was closed in the plane and seems to cross itself does so by rounding.
-                if a == b && self.parts[a].merged {
-                    continue;
+            let mut met = Met { parts: vec![false; self.parts.len()], rings: vec![false; owner.len()] };
+            for (i, j, place) in meetings.places() {
+                for ring in [i, j] {
+                    met.rings[ring] = true;
+                    met.parts[owner[ring]] = true;
                 }
-                affected[a] = true;
-                affected[b] = true;
-                groups.join(a, b);
+                groups.join(owner[i], owner[j]);
+                self.places.push(place);
             }
-            // Every round leaves fewer parts, or fewer that are not final: this ends.
-            if !affected.contains(&true) {
+            // Nothing but the plane helps where the disk finds no way on and nothing crosses.
+            let rings = self.parts.iter().flat_map(|part| &part.rings).zip(&met.rings);
+            let stuck: Vec<usize> =
+                rings.zip(&owner).filter(|((rolled, met), _)| !rolled.finished && !**met).map(|(_, &k)| k).collect();
+            if stuck.is_empty() && !met.parts.contains(&true) {
                 return;
             }
-            let parts = std::mem::take(&mut self.parts);
-            let mut together: Vec<Vec<usize>> = vec![vec![]; parts.len()];
-            for (k, part) in parts.iter().enumerate() {
-                together[groups.first(k)].extend(&part.of);
-            }
-            for (k, part) in parts.into_iter().enumerate() {
-                if !affected[k] {
-                    self.parts.push(part);
-                } else if groups.first(k) == k {
-                    let part = self.closed(std::mem::take(&mut together[k]));
-                    self.parts.push(part);
-                }
-            }
+            // Every round in the plane leaves fewer parts, or fewer that are not final: this ends.
+            let (united, open) = if round < rounds { meetings.united(far) } else { (vec![], vec![]) };
+            let mut hopeless = if round < rounds { vec![false; self.parts.len()] } else { met.parts.clone() };
+            let open = open.into_iter().map(|ring| owner[ring]);
+            stuck.into_iter().chain(open).for_each(|k| hopeless[groups.first(k)] = true);
+            let united = united.into_iter().map(|u| (groups.first(owner[u.of]), u.ring)).collect();
+            self.regroup(&met, &mut groups, united, &hopeless);
+        }
+    }
+
+    /// Every group of parts that have met becomes one part: of the rings that did not meet and those that were `united`, by
+    /// the first part of their group; or it is closed in the plane if that first part is `hopeless`.
+    fn regroup(&mut self, met: &Met, groups: &mut Groups, united: Vec<(usize, Ring)>, hopeless: &[bool]) {
+        let parts = std::mem::take(&mut self.parts);
+        let mut together: Vec<Part> = parts.iter().map(|_| Part::default()).collect();
+        let mut ring_met = met.rings.iter();
+        for (k, part) in parts.into_iter().enumerate() {
+            let group = &mut together[groups.first(k)];
+            group.of.extend(part.of);
+            group.merged = part.merged && !met.parts[k];
+            group.rings.extend(part.rings.into_iter().filter(|_| ring_met.next() != Some(&true)));
+        }
+        for (group, ring) in united.into_iter().filter(|(group, _)| !hopeless[*group]) {
+            together[group].rings.extend(self.rolled(&ring));
+        }
+        for (part, hopeless) in together.into_iter().zip(hopeless).filter(|(part, _)| !part.of.is_empty()) {
+            let part = if *hopeless { self.closed(part.of) } else { part };
+            self.parts.push(part);
         }
     }
 
@@ -93,8 +133,16 @@ impl<'a> Kept<'a> {
         self.places.extend(rings.iter().filter_map(|ring| ring.vertices.first()).map(|v| v.point));
         let outcome = close_merged(&Region::new(rings), self.r, self.resolution);
         self.contradictions += outcome.contradictions;
-        Part { of, rings: outcome.region.rings, merged: true }
+        let rings = outcome.region.rings.into_iter().map(|ring| Rolled { ring, finished: true }).collect();
+        Part { of, rings, merged: true }
     }
+}
+
+/// What has run into something.
+struct Met {
+    parts: Vec<bool>,
+    /// Of all rings, those of one part after those of the part before.
+    rings: Vec<bool>,
 }
 
 /// Which parts belong together.

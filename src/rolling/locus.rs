@@ -7,18 +7,15 @@
 use std::f64::consts::{PI, TAU};
 
 use super::carrier::Carrier;
-use super::excess::follows_samples;
+use super::samples::{STUCK, is_followed};
 use crate::plane::turn_angle;
-use crate::plane::{Arc, Bounds, Joint, Link, Point, Region, Ring, Segment, Turn, Vector, left_normal, right_normal};
+use crate::plane::{Arc, Bounds, Link, Point, Region, Ring, Segment, Turn, Vector, left_normal, right_normal};
 
 /// Pieces shorter than this, relative to the radius, are left out: they have no direction worth the name.
 pub(super) const TINY: f64 = 2e-9;
 
 /// A turn this near to half a turn to the right is one to the left: the tip of a spike, not the end of a slit.
 const TIP: f64 = 1e-7;
-
-/// A concave arc this near to the disk's radius, relative to it, holds the disk still.
-const STUCK: f64 = 1e-7;
 
 /// Rings that touch at a vertex would share a piece of the locus, and what coincides does not cross. So each ring has a
 /// radius of its own, smaller by up to this much, relative to it.
@@ -129,12 +126,12 @@ impl Locus {
         if n >= 2 {
             let mut path = Path { pieces: &mut self.pieces, ring: index, tiny, last: None, rough: false };
             let mut link = Directed::new(ring.segment(0));
-            let mut passage = Passage::new(&Directed::new(ring.segment(n - 1)), &link, ring.vertices[0].joint, r);
+            let mut passage = Passage::new(ring, 0, &Directed::new(ring.segment(n - 1)), &link, r);
             for i in 0..n {
                 path.vertex(&passage, link.segment.start, i as u32, r);
                 let j = if i + 1 == n { 0 } else { i + 1 };
                 let next = Directed::new(ring.segment(j));
-                passage = Passage::new(&link, &next, ring.vertices[j].joint, r);
+                passage = Passage::new(ring, j, &link, &next, r);
                 path.link(&link.segment, passage.arrive, i as u32, r);
                 link = next;
             }
@@ -190,20 +187,14 @@ struct Passage {
 
 impl Passage {
     #[inline]
-    fn new(incoming: &Directed, outgoing: &Directed, joint: Joint, r: f64) -> Passage {
+    fn new(ring: &Ring, vertex: usize, incoming: &Directed, outgoing: &Directed, r: f64) -> Passage {
         let (u, v) = (incoming.at_end, outgoing.at_start);
-        let (incoming, outgoing) = (&incoming.segment, &outgoing.segment);
-        let p = outgoing.start;
+        let p = outgoing.segment.start;
         let mut turn = if u == v { 0.0 } else { turn_angle(u, v) };
         if turn < -PI + TIP {
             turn += TAU;
         }
-        if turn < 0.0
-            && joint == Joint::Smooth
-            && incoming.link == Link::Line
-            && outgoing.link == Link::Line
-            && follows_samples(u, v, incoming.length(), outgoing.length(), r)
-        {
+        if turn < 0.0 && is_followed(ring, vertex, r) {
             // The two parallels meet: the disk passes on the curve that the chords stand for.
             let bisector = right_normal(u) + right_normal(v);
             let meet = p + bisector * (2.0 * r / bisector.norm_squared());

@@ -39,9 +39,6 @@ pub(super) const ROUNDING_STEPS: f64 = 32.0;
 /// contradict anything.
 const TELLING: f64 = 1e-4;
 
-/// Rings meet that overlap by twice this, relative to the radius: those that only touch have not run into each other.
-const MEETING: f64 = 1e-7;
-
 /// Samples that decide on a ring or a walk.
 const SAMPLES: usize = 16;
 
@@ -90,19 +87,6 @@ pub(super) fn differences(scanned: &Region, raw: &Region, r: f64, resolution: f6
         }
     }
     places
-}
-
-/// Pairs of rings of `region` that cross each other by more than [`MEETING`], and rings that cross themselves, paired with
-/// themselves.
-pub(super) fn meetings(region: &Region, r: f64, resolution: f64) -> Vec<(usize, usize)> {
-    let noise = ROUNDING_STEPS * resolution;
-    let locus = Locus::new(region, -(MEETING * r + noise), TINY * r + noise);
-    let ring = |e: &Event| locus.pieces[e.piece as usize].ring as usize;
-    let events = crossings(&locus, r);
-    let mut pairs: Vec<(usize, usize)> = events.chunks_exact(2).map(|e| (ring(&e[0]), ring(&e[1]))).collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
 }
 
 /// What distances say of a sample of the locus.

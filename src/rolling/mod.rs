@@ -16,10 +16,12 @@ mod keep;
 mod locus;
 mod loops;
 mod merge;
+mod samples;
 mod scan;
 mod solid;
 mod track;
 mod trim;
+mod unite;
 
 use std::f64::consts::PI;
 
@@ -35,7 +37,7 @@ pub enum Topology {
     /// The morphological closing, as a cutter sees it: components merge, holes fill, narrow inlets close.
     Merge,
     /// The flow's own limit: every ring by itself, measured along the curve. Rings that run into each other, or one into
-    /// itself, are closed in the plane by themselves.
+    /// itself, become one where they do, and the disk rolls on along that.
     Keep,
 }
 
@@ -150,11 +152,18 @@ fn close_merged(region: &Region, r: f64, resolution: f64) -> Outcome {
 }
 
 fn close_along(input: &Region, r: f64, resolution: f64) -> Outcome {
+    let outcome = kept(input, r, resolution, keep::ROUNDS);
+    // What is united has no proof but its result.
+    if outcome.contradictions == 0 { outcome } else { kept(input, r, resolution, 0) }
+}
+
+/// Every ring by itself; those that have run into each other are united, in so many rounds.
+fn kept(input: &Region, r: f64, resolution: f64, rounds: usize) -> Outcome {
     let mut kept = Kept::new(input, r, resolution);
     let mut differences = merge::differences(&kept.region(), input, r, resolution);
     // Rings that cross have a locus that does.
-    if !differences.is_empty() {
-        kept.part_ways();
+    if !differences.is_empty() || !kept.is_finished() {
+        kept.unite(rounds);
     }
     differences.append(&mut kept.places);
     let (region, absorbed) = without_absorbed(kept.region(), input.area() < 0.0);

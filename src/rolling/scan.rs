@@ -19,9 +19,11 @@ mod step;
 use std::collections::VecDeque;
 
 use super::carrier::center_of_chord;
-use super::excess::{HALF_TURN, WHOLE_TURN, excess, follows_samples};
+use super::excess::{HALF_TURN, WHOLE_TURN, excess};
 use super::merge::{ROUNDING_STEPS, SHRINK};
+use super::samples::is_followed;
 use crate::plane::{Joint, Link, Ring, Vector, Vertex};
+use change::Step;
 use nodes::{LinkKind, Node};
 
 /// A contact nearer than this to the end of a link, relative to the radius, is at the end. An error of this size along
@@ -53,6 +55,9 @@ const WRAPPED: f64 = 0.6;
 
 /// Operations allowed: measured, 1.2 to 1.5 a vertex even where nearly all move.
 const OPERATIONS_PER_VERTEX: usize = 200;
+
+/// Visits without a change after which none will come, over the nodes that are left: nodes that refuse wake each other.
+const IDLE_ROUNDS: usize = 4;
 
 /// What the scan may take for granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,6 +144,7 @@ impl<'a> Roller<'a> {
 
     fn run(&mut self) {
         self.activate();
+        let mut idle = 0;
         let mut budget = OPERATIONS_PER_VERTEX * self.input.len() + 10_000;
         while let Some(b) = self.queue.pop_front() {
             self.node_mut(b).queued = false;
@@ -149,12 +155,12 @@ impl<'a> Roller<'a> {
                 self.alive = 0;
                 return;
             }
-            if budget == 0 {
+            if budget == 0 || idle > IDLE_ROUNDS * (self.alive + 1) {
                 self.exhausted = true;
                 return;
             }
             budget -= 1;
-            self.visit(b);
+            idle = if self.visit(b) { 0 } else { idle + 1 };
         }
         if self.is_filled() {
             self.alive = 0;
@@ -188,13 +194,12 @@ impl<'a> Roller<'a> {
             let (cross, dot) = (u.perp(&v), u.dot(&v));
             if dot < 0.0 && self.is_horn_of_empty(i as u32, u, v) {
                 self.enqueue(i as u32);
-            } else if cross < 0.0 && (dot < 0.0 || -cross > self.min_excess * dot) {
-                let smooth = self.input.vertices[i].joint == Joint::Smooth
-                    && follows_samples(u, v, incoming.length(), outgoing.length(), self.r);
-                if !smooth {
-                    self.node_mut(i as u32).excess = Some(excess(u, v));
-                    self.enqueue(i as u32);
-                }
+            } else if cross < 0.0
+                && (dot < 0.0 || -cross > self.min_excess * dot)
+                && !is_followed(self.input, i, self.r)
+            {
+                self.node_mut(i as u32).excess = Some(excess(u, v));
+                self.enqueue(i as u32);
             }
             incoming = outgoing;
         }
@@ -226,13 +231,15 @@ impl<'a> Roller<'a> {
         curvature(a) + curvature(b) > 0.0
     }
 
-    fn visit(&mut self, b: u32) {
+    /// Does what there is to do at node `b`, and tells whether anything was.
+    fn visit(&mut self, b: u32) -> bool {
         let a = self.node(b).prev;
         let c = self.node(b).next;
         let min_link = COINCIDENT * self.r;
         // A link without length has no direction: its end is its start.
         if (self.node(b).point - self.node(a).point).norm_squared() <= min_link * min_link {
-            return self.absorb(a, b, c);
+            self.absorb(a, b, c);
+            return true;
         }
         let (arriving, leaving) = (self.tangent(a, false), self.tangent(b, true));
         let mut excess =
@@ -246,16 +253,18 @@ impl<'a> Roller<'a> {
             Mode::Geodesic if excess < before - WRAPPED => excess += WHOLE_TURN,
             Mode::Safe if excess < before - WRAPPED || excess > SAFE_EXCESS => {
                 self.node_mut(b).excess = Some(excess);
-                return;
+                return false;
             }
             _ => {}
         }
         self.node_mut(b).excess = Some(excess);
         if excess <= self.min_excess {
-            return;
+            return false;
         }
         let step = self.decide(a, b, c, excess);
+        let changes = !matches!(step, Step::Refuse);
         self.apply(step, a, b, c);
+        changes
     }
 
     /// Whether no node is left that the disk cannot follow.
@@ -264,11 +273,10 @@ impl<'a> Roller<'a> {
         for _ in 0..self.alive {
             let (u, v) = (self.tangent(self.node(i).prev, false), self.tangent(i, true));
             if excess(u, v) > UNSETTLED {
-                let smooth = self.node(i).source.is_some_and(|s| {
-                    let (l1, l2) = (self.segment(self.node(i).prev).length(), self.segment(i).length());
-                    self.input.vertices[s as usize].joint == Joint::Smooth && follows_samples(u, v, l1, l2, self.r)
-                });
-                if !smooth {
+                // The input tells of the curve: an arc of the disk may have taken a part of the chord since.
+                let are_chords = !self.is_rolling(self.node(i).prev) && !self.is_rolling(i);
+                let is_sample = |s: u32| is_followed(self.input, s as usize, self.r);
+                if !(are_chords && self.node(i).source.is_some_and(is_sample)) {
                     return false;
                 }
             }

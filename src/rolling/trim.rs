@@ -133,7 +133,15 @@ fn arc_crossings(arcs: &[NewArc], by_x: &[usize], r: f64) -> Vec<Event> {
             if d.norm_squared() < (COMMON_END * r * 1e-2).powi(2) {
                 continue;
             }
-            for x in circle_circle(a.arc.center, r, b.arc.center, r, 0.0).iter() {
+            let roots = circle_circle(a.arc.center, r, b.arc.center, r, 0.0);
+            // Disks that touch do not cross, and no sign tells by which of two arcs the boundary would go on.
+            let mut points = roots.iter();
+            if let (Some(x), Some(y)) = (points.next(), points.next())
+                && (x - y).norm() <= COMMON_END * r
+            {
+                continue;
+            }
+            for x in roots.iter() {
                 let (s, t) = (a.arc.angle_between(a.start, x), b.arc.angle_between(b.start, x));
                 if s >= a.sweep || t >= b.sweep {
                     continue;
