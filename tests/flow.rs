@@ -186,6 +186,17 @@ fn a_small_hole_closes_and_is_gone() {
 }
 
 #[test]
+fn an_outline_much_smaller_than_the_disk_vanishes_and_leaves_nothing_turned_over() {
+    for (name, region) in shapes::flow_shapes().into_iter().filter(|(name, _)| *name != "gear") {
+        let field = Field::constant(Radius::new(500.0).unwrap());
+        let mut flow = CurveFlow::new(&region, Obstacle::OPENING, field, &Settings::default()).unwrap();
+        let Status::Ended(end) = flow.run(f64::INFINITY) else { panic!("{name} goes on") };
+        assert!(end.is_limit(), "{name}: {end:?}");
+        assert!(flow.region().is_empty(), "{name}: {:?}", flow.region().topology());
+    }
+}
+
+#[test]
 fn a_circle_shrinks_at_the_speed_of_its_curvature() {
     let circle = Region::new(vec![Ring::circle(Point::origin(), 0.9)]);
     let mut flow = start(&circle, Obstacle::OPENING, DEFAULT_EDGE);
@@ -320,7 +331,7 @@ fn settings_out_of_range_are_refused() {
     for edge in [0.0, -1.0, f64::NAN, 2.0] {
         assert!(matches!(refused(Settings { edge, ..default }, 1.0), Some(FlowError::EdgeLength(_))), "{edge}");
     }
-    for time_step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    for time_step in [0.0, -1.0, 5.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(refused(Settings { time_step, ..default }, 1.0), Some(FlowError::TimeStep(_))));
     }
     for tolerance in [0.0, -1.0, f64::NAN] {

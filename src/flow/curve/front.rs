@@ -63,6 +63,7 @@ impl<'a> CurveFront<'a> {
             round: 0,
         };
         front.sample_sharp_arcs();
+        front.split_pairs();
         front.candidates = (0..front.outline.nodes.len() as u32).collect();
         front
     }

@@ -16,6 +16,8 @@ mod turn;
 pub use front::CurveFront;
 pub use runs::Runs;
 
+use std::ops::RangeInclusive;
+
 use super::advance::{Advance, DEFAULT_TOLERANCE, End, OnContact, Status};
 use super::obstacle::Obstacle;
 use crate::plane::{Point, Region, VertexId};
@@ -27,6 +29,12 @@ pub const DEFAULT_EDGE: f64 = 1.0 / 13.0;
 
 /// The time step tau in units of h².
 pub const DEFAULT_TIME_STEP: f64 = 0.05;
+
+/// Edge lengths that make sense, in units of r: longer ones cannot follow the disk, shorter ones take for ever.
+const EDGES: RangeInclusive<f64> = 1e-3..=0.5;
+
+/// Time steps that make sense, in units of h²: in longer ones vertices pass over each other.
+const TIME_STEPS: RangeInclusive<f64> = 1e-4..=1.0;
 
 /// What the bound depends on in the plane.
 pub struct Field<'a> {
@@ -72,10 +80,10 @@ impl Default for Settings {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum FlowError {
     /// The edge length is not between nothing and the radius.
-    #[error("an edge length of {0} radii: it must be above 0.001 and at most 0.5; 0.08 is the rule")]
+    #[error("an edge length of {0} radii: it must be from {low} to {high}; 0.08 is the rule", low = EDGES.start(), high = EDGES.end())]
     EdgeLength(f64),
     /// The time step is no positive number.
-    #[error("a time step of {0} squares of the edge length: it must be above 0.0001 and at most 10; 0.05 is the rule")]
+    #[error("a time step of {0} squares of the edge length: it must be from {low} to {high}; 0.05 is the rule", low = TIME_STEPS.start(), high = TIME_STEPS.end())]
     TimeStep(f64),
     /// The tolerance is no positive number.
     #[error("a tolerance of {0} edge lengths: it must be above 0 and at most 1")]
@@ -140,10 +148,10 @@ impl<'a> CurveFlow<'a> {
         settings: &Settings,
     ) -> Result<CurveFlow<'a>, FlowError> {
         let Settings { edge, time_step, tolerance, on_contact } = *settings;
-        if !(1e-3..=0.5).contains(&edge) {
+        if !EDGES.contains(&edge) {
             return Err(FlowError::EdgeLength(edge));
         }
-        if !(1e-4..=10.0).contains(&time_step) {
+        if !TIME_STEPS.contains(&time_step) {
             return Err(FlowError::TimeStep(time_step));
         }
         if !(tolerance > 0.0 && tolerance <= 1.0) {

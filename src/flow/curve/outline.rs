@@ -38,6 +38,10 @@ pub(super) struct Loop {
     /// One of its nodes; [`NONE`] once it is gone.
     pub first: u32,
     pub count: u32,
+    /// Twice the signed area of the polygon of its chords.
+    doubled_area: f64,
+    /// The sign of the area that it had at the start.
+    sign: f64,
 }
 
 /// All rings of a region. The nodes of the drawing's vertices come first, in its order, but for those without an edge.
@@ -98,7 +102,11 @@ impl Outline {
                 dead: false,
             });
         }
-        self.loops.push(Loop { first, count });
+        let start = vertices[0].point;
+        let corners = vertices.iter().map(|v| v.point - start);
+        let doubled_area = corners.clone().zip(corners.skip(1)).map(|(a, b)| a.perp(&b)).sum();
+        let sign = Ring { vertices: vertices.to_vec() }.area().signum();
+        self.loops.push(Loop { first, count, doubled_area, sign });
     }
 
     #[inline]
@@ -140,6 +148,7 @@ impl Outline {
             }
         };
         *self.node_mut(slot) = new;
+        self.loops[new.ring as usize].doubled_area += (new.point - edge.start).perp(&(edge.end - edge.start));
         self.node_mut(i).next = slot;
         self.node_mut(next).prev = slot;
         self.loops[new.ring as usize].count += 1;
@@ -148,23 +157,28 @@ impl Outline {
 
     /// Moves a node; its edges become chords.
     pub fn displace(&mut self, i: u32, by: Vector) {
+        let Node { prev, next, ring, .. } = *self.node(i);
+        let across = self.node(next).point - self.node(prev).point;
+        self.loops[ring as usize].doubled_area += by.perp(&across);
         let node = self.node_mut(i);
         node.point += by;
         (node.moved, node.arc, node.whole) = (true, NONE, false);
-        let prev = node.prev;
         let before = self.node_mut(prev);
         (before.arc, before.whole) = (NONE, false);
     }
 
     /// Takes a node away; a straight edge bridges it.
     pub fn remove(&mut self, i: u32) {
-        let Node { prev, next, ring, .. } = *self.node(i);
+        let Node { prev, next, ring, point, .. } = *self.node(i);
+        let start = self.node(prev).point;
+        let ear = (point - start).perp(&(self.node(next).point - start));
         let before = self.node_mut(prev);
         (before.next, before.arc, before.bridge, before.whole) = (next, NONE, true, false);
         self.node_mut(next).prev = prev;
         self.node_mut(i).dead = true;
         self.free.push(i);
         let ring = &mut self.loops[ring as usize];
+        ring.doubled_area -= ear;
         ring.count -= 1;
         if ring.first == i {
             ring.first = next;
@@ -177,12 +191,25 @@ impl Outline {
             self.node_mut(i).dead = true;
             self.free.push(i);
         }
-        self.loops[ring as usize] = Loop { first: NONE, count: 0 };
+        let gone = &mut self.loops[ring as usize];
+        (gone.first, gone.count) = (NONE, 0);
+    }
+
+    /// Whether a ring runs around its area the other way than at the start: it has shrunk to nothing, and what is left of it
+    /// are vertices that had no reason to move, with chords across.
+    pub fn has_turned_over(&self, ring: u32) -> bool {
+        let Loop { doubled_area, sign, .. } = self.loops[ring as usize];
+        // Arcs count only where the chords alone, which cost nothing to follow, say so.
+        doubled_area * sign < 0.0 && {
+            let origin = self.walk(ring).next().map_or(Vector::zeros(), |i| self.node(i).point.coords);
+            let area: f64 = self.walk(ring).map(|i| self.edge(i).translated(-origin).doubled_area()).sum();
+            area * sign < 0.0 && !self.walk(ring).any(|i| self.node(i).pinned)
+        }
     }
 
     /// The nodes of a ring in order.
     pub fn walk(&self, ring: u32) -> impl Iterator<Item = u32> + '_ {
-        let Loop { first, count } = self.loops[ring as usize];
+        let Loop { first, count, .. } = self.loops[ring as usize];
         std::iter::successors((first != NONE).then_some(first), |i| Some(self.node(*i).next)).take(count as usize)
     }
 

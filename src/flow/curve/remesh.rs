@@ -57,6 +57,17 @@ impl CurveFront<'_> {
         self.put_on(edge, if is_start { t } else { 1.0 - t });
     }
 
+    /// Puts nodes on the edges of rings that have two alone, as a lens has: the system of a ring takes three.
+    pub(super) fn split_pairs(&mut self) {
+        for i in 0..self.outline.nodes.len() as u32 {
+            if self.outline.loops[self.outline.node(i).ring as usize].count < 3 {
+                let next = self.outline.node(i).next;
+                self.put_on(i, 0.5);
+                self.put_on(next, 0.5);
+            }
+        }
+    }
+
     /// Samples the arcs that are sharper than the obstacle allows: their insides move, not only their ends.
     pub(super) fn sample_sharp_arcs(&mut self) {
         for i in 0..self.outline.nodes.len() as u32 {
@@ -89,7 +100,7 @@ impl CurveFront<'_> {
             }
             self.touch(i);
             let merged = self.merge(i);
-            if has_closed(&self.outline, node.ring, self.edge_at(i)) {
+            if has_closed(&self.outline, node.ring, self.edge_at(i)) || self.outline.has_turned_over(node.ring) {
                 self.outline.remove_loop(node.ring);
             } else if !merged {
                 self.split_stretched(i);

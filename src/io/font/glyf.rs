@@ -246,8 +246,8 @@ pub(super) fn encode(contours: &[Contour]) -> Option<Vec<u8>> {
     let mut from = [0i32; 2];
     for p in contours.iter().flatten() {
         let to = [p.point.x as i32, p.point.y as i32];
-        let x = encode_step(to[0] - from[0], X_SHORT, X_SAME, &mut xs)?;
-        let y = encode_step(to[1] - from[1], Y_SHORT, Y_SAME, &mut ys)?;
+        let x = encode_step(to[0].checked_sub(from[0])?, X_SHORT, X_SAME, &mut xs)?;
+        let y = encode_step(to[1].checked_sub(from[1])?, Y_SHORT, Y_SAME, &mut ys)?;
         flags.push(x | y | if p.on_curve { ON_CURVE } else { 0 });
         from = to;
     }
@@ -269,7 +269,7 @@ fn encode_step(step: i32, short: u8, same: u8, bytes: &mut Vec<u8>) -> Option<u8
     if step == 0 {
         return Some(same);
     }
-    if let Ok(size) = u8::try_from(step.abs()) {
+    if let Ok(size) = u8::try_from(step.unsigned_abs()) {
         bytes.push(size);
         return Some(short | if step > 0 { same } else { 0 });
     }
@@ -345,6 +345,8 @@ mod tests {
     fn steps_beyond_the_format_are_refused() {
         let p = |x: f64| ContourPoint { point: Point::new(x, 0.0), on_curve: true };
         assert_eq!(encode(&[vec![p(-20_000.0), p(20_000.0)]]), None);
+        // Components of components can put points anywhere.
+        assert_eq!(encode(&[vec![p(-1e300), p(1e300)]]), None);
         assert_eq!(encode(&[vec![]]), None);
     }
 }
