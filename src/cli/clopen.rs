@@ -101,7 +101,9 @@ fn flow(work: &Work) -> Result<(Region, Option<String>)> {
         None => Some(format!("the flow has not come to its limit in {MOST_TIME} r²: clopen flow goes on")),
         Some(end) if !end.is_limit() => Some("the flow stalled on its way; this is its best state".to_owned()),
         Some(_) if !report.contacts.is_empty() => {
-            Some(format!("the flow ran into itself in {} places, which the disk does not", report.contacts.len()))
+            let times =
+                if report.contacts.len() == 1 { "once".to_owned() } else { format!("{} times", report.contacts.len()) };
+            Some(format!("the flow ran into itself {times}, which the disk does not"))
         }
         Some(_) => None,
     };

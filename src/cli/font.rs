@@ -126,6 +126,9 @@ mod with_text {
             bail!("--format json prints the report on standard output, where the font would go: name a file with -o");
         }
         output::keep_input(&args.input, &args.output)?;
+        for target in [Some(&args.output), args.sheet.as_ref()].into_iter().flatten() {
+            output::keep_folder(target)?;
+        }
         let name = || args.input.display().to_string();
         let bytes = input::read_bytes(&args.input)?;
         let face = Face::parse(&bytes, args.index).with_context(name)?;

@@ -125,6 +125,17 @@ pub(super) fn say(text: &str) {
     let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }
 
+/// Refuses a target in a folder that is not there: before hours of work, not after.
+///
+/// # Errors
+/// Names the folder.
+pub(super) fn keep_folder(target: &Path) -> Result<()> {
+    match target.parent().filter(|folder| *folder != Path::new("") && !folder.is_dir()) {
+        Some(folder) => bail!("{}: there is no folder {}: make it first", target.display(), folder.display()),
+        None => Ok(()),
+    }
+}
+
 /// Refuses to write over what is being read.
 ///
 /// # Errors

@@ -184,6 +184,7 @@ impl Report {
             &self.differences
         {
             text += &match place_units {
+                _ if largest_units.is_infinite() => format!("nothing is left of one of {first} and {second}\n"),
                 None => format!("{first} and {second} agree\n"),
                 Some(_) if *largest_units <= AGREES * self.radius_units => {
                     format!("{first} and {second} agree up to rounding\n")

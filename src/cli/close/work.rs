@@ -36,7 +36,8 @@ impl Work {
         };
         let parts = args.reading.read_parts(&args.input, &args.selection.selection(), stretch.as_ref())?;
         let units = args.radius.to_user_units(&parts.scale()).context("--radius")?;
-        let radius = Radius::new(units).context("--radius")?;
+        let radius =
+            Radius::new(units).map_err(|_| anyhow::anyhow!("--radius {}: it must be above zero", args.radius))?;
         let bounds = parts.bounds();
         refuse_absurd(radius, args.radius, "--radius", bounds.diagonal())?;
         if let Some(stretch) = &stretch {

@@ -177,7 +177,7 @@ impl FieldArgs {
 /// The radius that was typed as `option`, on a drawing of that scale and diagonal.
 pub(super) fn resolve_radius(length: Length, option: &str, scale: &DrawingScale, diagonal: f64) -> Result<Radius> {
     let units = length.to_user_units(scale).with_context(|| option.to_owned())?;
-    let radius = Radius::new(units).with_context(|| option.to_owned())?;
+    let radius = Radius::new(units).map_err(|_| anyhow::anyhow!("{option} {length}: it must be above zero"))?;
     refuse_absurd(radius, length, option, diagonal)?;
     Ok(radius)
 }

@@ -121,9 +121,7 @@ impl OutputArgs {
                 bail!("{}: two results cannot go to one file: give each a name of its own", target.display());
             }
             // Told before the flow has run, and not after.
-            if let Some(folder) = target.parent().filter(|p| *p != Path::new("") && !p.is_dir()) {
-                bail!("{}: there is no folder {}: make it first", target.display(), folder.display());
-            }
+            output::keep_folder(target)?;
             if let Some(input) = input {
                 output::keep_input(input, target)?;
             }
