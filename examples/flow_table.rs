@@ -9,9 +9,10 @@ mod shapes;
 use std::time::Instant;
 
 use clopen::flow::{CurveFlow, DEFAULT_EDGE, DEFAULT_TIME_STEP, Field, Obstacle, Settings, Status};
-use clopen::plane::{BoundaryIndex, Point, Region, Ring};
+use clopen::plane::{Point, Region, Ring};
 use clopen::rolling::{self, Topology};
 use clopen::units::Radius;
+use shapes::hausdorff;
 
 /// Edge lengths as numbers of them to the radius, and time steps in squares of the edge length.
 const EDGES: [f64; 3] = [6.5, 13.0, 26.0];
@@ -39,19 +40,6 @@ fn radius() -> Radius {
 fn flow(region: &Region, obstacle: Obstacle, edge: f64, time_step: f64) -> CurveFlow<'static> {
     let settings = Settings { edge, time_step, ..Settings::default() };
     CurveFlow::new(region, obstacle, Field::constant(radius()), &settings).expect("the settings are in range")
-}
-
-/// The largest distance from one boundary to the other, either way, looked for at places `spacing` apart.
-fn hausdorff(a: &Region, b: &Region, spacing: f64) -> f64 {
-    let one_way = |from: &Region, to: &Region| {
-        let index = BoundaryIndex::new(to);
-        let places = from.segments().flat_map(|s| {
-            let n = (s.length() / spacing).ceil().max(1.0) as usize;
-            (0..n).map(move |k| s.point_at(k as f64 / n as f64))
-        });
-        places.map(|p| index.distance(p)).fold(0.0, f64::max)
-    };
-    one_way(a, b).max(one_way(b, a))
 }
 
 fn limits(shapes: &[(&str, Region)]) {

@@ -6,6 +6,7 @@ use clopen::flow::{CurveFlow, DEFAULT_EDGE, End, Field, FlowError, Obstacle, OnC
 use clopen::plane::{BoundaryIndex, Link, Point, Region, Ring, Vector, Vertex, VertexId};
 use clopen::rolling::{self, Topology};
 use clopen::units::Radius;
+use shapes::hausdorff;
 
 fn radius() -> Radius {
     Radius::new(1.0).unwrap()
@@ -14,19 +15,6 @@ fn radius() -> Radius {
 fn start(region: &Region, obstacle: Obstacle, edge: f64) -> CurveFlow<'static> {
     let settings = Settings { edge, ..Settings::default() };
     CurveFlow::new(region, obstacle, Field::constant(radius()), &settings).unwrap()
-}
-
-/// The largest distance from one boundary to the other, either way.
-fn hausdorff(a: &Region, b: &Region, spacing: f64) -> f64 {
-    let one_way = |from: &Region, to: &Region| {
-        let index = BoundaryIndex::new(to);
-        let places = from.segments().flat_map(|s| {
-            let n = (s.length() / spacing).ceil().max(1.0) as usize;
-            (0..n).map(move |k| s.point_at(k as f64 / n as f64))
-        });
-        places.map(|p| index.distance(p)).fold(0.0, f64::max)
-    };
-    one_way(a, b).max(one_way(b, a))
 }
 
 /// The region with an identity for every vertex.

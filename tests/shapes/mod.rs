@@ -6,7 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use clopen::plane::{Arc, Joint, Link, Point, Region, Ring, Turn, Vector, Vertex};
+use clopen::plane::{Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Turn, Vector, Vertex};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::overlay::FloatOverlay;
@@ -306,4 +306,17 @@ pub fn flow_shapes() -> Vec<(&'static str, Region)> {
         ("spiral", spiral(3.0, 4.0, 2.5, 600)),
         ("coast", coast(300, 12.0, 5)),
     ]
+}
+
+/// The largest distance from one boundary to the other, either way, looked for at places `spacing` apart.
+pub fn hausdorff(a: &Region, b: &Region, spacing: f64) -> f64 {
+    let one_way = |from: &Region, to: &Region| {
+        let index = BoundaryIndex::new(to);
+        let places = from.segments().flat_map(|s| {
+            let n = (s.length() / spacing).ceil().max(1.0) as usize;
+            (0..n).map(move |k| s.point_at(k as f64 / n as f64))
+        });
+        places.map(|p| index.distance(p)).fold(0.0, f64::max)
+    };
+    one_way(a, b).max(one_way(b, a))
 }
