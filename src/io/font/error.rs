@@ -20,6 +20,9 @@ pub enum FontError {
         /// How many there are.
         count: u32,
     },
+    /// A number, but no collection.
+    #[error("it is one font and no collection: leave out --index")]
+    NoCollection,
     /// A table is absent, cut off or contradicts others.
     #[error("its table '{table}' {problem}; the font is damaged: try to open it in a font editor and export it again")]
     Damaged {

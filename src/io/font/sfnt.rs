@@ -28,6 +28,9 @@ pub(super) struct Sfnt<'a> {
     pub index: u32,
 }
 
+/// The tables of a font may together be so many times as long as its file: in sound ones none share any bytes.
+const MOST_SHARING: usize = 2;
+
 impl<'a> Sfnt<'a> {
     /// Reads the directory; `index` tells which font of a collection.
     pub fn parse(bytes: &'a [u8], index: Option<u32>) -> Result<Sfnt<'a>, FontError> {
@@ -42,20 +45,26 @@ impl<'a> Sfnt<'a> {
                 u32_at(bytes, 12 + 4 * chosen as usize).ok_or_else(|| not("its directory is cut off"))? as usize
             }
             _ if bytes.starts_with(b"wOFF") || bytes.starts_with(b"wOF2") => return Err(FontError::WebFont),
-            _ => return Err(not("it begins otherwise")),
+            _ => return Err(not("its first bytes are those of something else")),
         };
         if version != COLLECTION && index.is_some_and(|i| i > 0) {
-            return Err(FontError::Collection { count: 1 });
+            return Err(FontError::NoCollection);
         }
         let count = u16_at(bytes, start + 4).ok_or_else(|| not("its directory is cut off"))?;
-        let mut tables = BTreeMap::new();
+        let (mut tables, mut total) = (BTreeMap::new(), 0);
         for k in 0..usize::from(count) {
             let entry = start + 12 + 16 * k;
             let record = bytes.get(entry..entry + 16).ok_or_else(|| not("its directory is cut off"))?;
             let tag = [record[0], record[1], record[2], record[3]];
             let (offset, length) = (u32_at(record, 8).unwrap_or(0) as usize, u32_at(record, 12).unwrap_or(0) as usize);
             let table = offset.checked_add(length).and_then(|end| bytes.get(offset..end));
-            tables.insert(tag, table.ok_or_else(|| FontError::damaged(&tag, "reaches beyond the end of the file"))?);
+            let table = table.ok_or_else(|| FontError::damaged(&tag, "reaches beyond the end of the file"))?;
+            // Copies of tables are made: entries that all name the same bytes must not multiply them.
+            total += table.len();
+            if total > MOST_SHARING * bytes.len() {
+                return Err(FontError::damaged(&tag, "shares its bytes with too many others"));
+            }
+            tables.insert(tag, table);
         }
         Ok(Sfnt { tables, index: index.unwrap_or(0) })
     }
@@ -170,7 +179,16 @@ mod tests {
         }
         assert_eq!(Sfnt::parse(b"wOF2....", None).unwrap_err(), FontError::WebFont);
         assert!(matches!(Sfnt::parse(b"<svg></svg>", None), Err(FontError::NotAFont { .. })));
-        assert!(matches!(Sfnt::parse(&file, Some(1)), Err(FontError::Collection { count: 1 })));
+        assert_eq!(Sfnt::parse(&file, Some(1)).unwrap_err(), FontError::NoCollection);
+        // A hundred entries that all name the whole file.
+        let mut many = TRUETYPE.to_be_bytes().to_vec();
+        many.extend([0, 100, 0, 0, 0, 0, 0, 0]);
+        let length: u32 = 12 + 100 * 16;
+        for k in 0..100 {
+            many.extend([b'a', b'b', b'c', k, 0, 0, 0, 0, 0, 0, 0, 0]);
+            many.extend(length.to_be_bytes());
+        }
+        assert!(matches!(Sfnt::parse(&many, None), Err(FontError::Damaged { .. })));
     }
 
     #[test]
