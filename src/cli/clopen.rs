@@ -82,7 +82,8 @@ pub(super) fn run(args: &ClopenArgs) -> Result<ExitStatus> {
     })
 }
 
-/// The flow is given up after this time, in r²: by then it has gone through slots thirty radii deep.
+/// The flow is given up after this time, in r²: the end of a slot of width w moves at about π / w, so that by then any slot that
+/// closes has closed to a depth of seventy radii.
 const MOST_TIME: f64 = 50.0;
 
 /// The limit of the flow with both bounds at once, and what is to be said of it where that is not all.

@@ -177,8 +177,8 @@ mod with_text {
         Ok(if failed { ExitStatus::CheckFailed } else { ExitStatus::Done })
     }
 
-    /// Glyphs flow with edges of so many radii and steps of so many squares of them: the states are within a hundredth of the
-    /// radius of finer ones, and thousands of glyphs take a fifth of the time.
+    /// Glyphs flow with edges of so many radii and steps of so many squares of them, both coarser than elsewhere: a font has
+    /// thousands, and steps and vertices are fewer by the third power of the edge.
     const FLOW_EDGE: f64 = 0.1;
     const FLOW_TIME_STEP: f64 = 0.1;
 
