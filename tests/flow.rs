@@ -167,7 +167,8 @@ fn a_small_hole_closes_and_is_gone() {
     let plate = shapes::rectangle(-10.0, -10.0, 10.0, 10.0);
     let hole = Ring::circle(Point::new(1.0, 2.0), 0.5).reversed();
     let mut flow = start(&Region::new(vec![plate.clone(), hole]), Obstacle::CLOSING, DEFAULT_EDGE);
-    assert_eq!(flow.run(f64::INFINITY), Status::Ended(End::Still));
+    let Status::Ended(end) = flow.run(f64::INFINITY) else { panic!("it goes on") };
+    assert!(end.is_limit(), "{end:?}");
     assert_eq!(flow.region(), Region::new(vec![plate]));
     // A circle of radius a shrinks to a point in the time a² / 2.
     assert!((flow.time() - 0.125).abs() < 0.005, "{}", flow.time());
@@ -233,8 +234,10 @@ fn clopening_bounds_both_sides_at_once() {
 fn pinned_vertices_stay_and_the_rest_flows_on() {
     let region = shapes::l_corner(7.0, 3.0);
     // The concave corner at (3, 3) is pinned, the convex ones are not.
-    let field =
-        || Field { radius: Box::new(|_, _| 1.0), pinned: Box::new(|p| (p - Point::new(3.0, 3.0)).norm() < 0.5) };
+    let field = || Field {
+        radius: Box::new(|_, _| 1.0),
+        pin_distance: Box::new(|p| ((p - Point::new(3.0, 3.0)).norm() - 0.5).max(0.0)),
+    };
     let mut closing = CurveFlow::new(&region, Obstacle::CLOSING, field(), &Settings::default()).unwrap();
     assert_eq!(closing.run(f64::INFINITY), Status::Ended(End::Still));
     assert_eq!(closing.region(), region);
@@ -244,11 +247,80 @@ fn pinned_vertices_stay_and_the_rest_flows_on() {
     assert!(kept.contains(&Point::new(3.0, 3.0)) && !kept.contains(&Point::new(0.0, 0.0)));
 }
 
+/// The largest turn at a vertex of a region, in radians, corners of the drawing aside.
+fn largest_turn(region: &Region, corners: &[Point]) -> f64 {
+    let mut largest: f64 = 0.0;
+    for ring in &region.rings {
+        let n = ring.len();
+        for k in 0..n {
+            let [a, b, c] = [k, k + 1, k + 2].map(|k| ring.vertices[k % n].point);
+            if corners.iter().all(|c| (c - b).norm() > 1e-9) {
+                largest = largest.max(clopen::plane::turn_angle(b - a, c - b).abs());
+            }
+        }
+    }
+    largest
+}
+
+#[test]
+fn the_flow_joins_what_is_pinned_without_a_corner() {
+    // A fillet of radius 1 wants half of its length on the leg that is pinned down to half a radius from the corner.
+    let region = shapes::l_corner(7.0, 3.0);
+    let corners: Vec<Point> = region.rings[0].vertices.iter().map(|v| v.point).collect();
+    let (corner, end) = (Point::new(3.0, 3.0), Point::new(3.0, 3.5));
+    let result = |edge: f64, eased: bool| {
+        let distance = move |p: Point| if p.y >= end.y && p.x < 3.1 { 0.0 } else { (p - end).norm() };
+        let pin_distance = move |p: Point| if eased || distance(p) == 0.0 { distance(p) } else { f64::INFINITY };
+        let field = Field { radius: Box::new(|_, _| 1.0), pin_distance: Box::new(pin_distance) };
+        let mut flow =
+            CurveFlow::new(&region, Obstacle::CLOSING, field, &Settings { edge, ..Settings::default() }).unwrap();
+        let Status::Ended(end) = flow.run(f64::INFINITY) else { panic!("it goes on") };
+        assert!(end.is_limit(), "{end:?}");
+        assert!(BoundaryIndex::new(&flow.region()).distance(corner) > 0.1, "the corner is filled");
+        assert!(sticks_out(&region, &flow.region()) < 1e-12);
+        flow.region()
+    };
+    // A disk of radius 1 that rests on the other leg and on the end of the pin meets the leg at 30 degrees.
+    assert!(largest_turn(&result(DEFAULT_EDGE, false), &corners) > 0.45, "a pin without easing is met in a corner");
+    let [coarse, fine] = [1.0, 0.25].map(|part| largest_turn(&result(part * DEFAULT_EDGE, true), &corners));
+    assert!(coarse < 0.25, "{coarse}");
+    // What is left are the turns of a polygon along a curve.
+    assert!(fine < 0.35 * coarse, "{fine} of {coarse}");
+}
+
+#[test]
+fn pinned_samples_of_a_curve_stay_and_those_beside_them_join_them_smoothly() {
+    // A notch, a half circle of radius 1/2 in the top of a block, and a disk about its lowest point.
+    let samples = 60;
+    let mut points = vec![Point::new(-4.0, -4.0), Point::new(4.0, -4.0), Point::new(4.0, 0.0)];
+    points.extend((0..=samples).map(|k| {
+        let (sin, cos) = (std::f64::consts::PI * f64::from(k) / f64::from(samples)).sin_cos();
+        Point::new(0.5 * cos, -0.5 * sin)
+    }));
+    points.push(Point::new(-4.0, 0.0));
+    let block = Region::new(vec![Ring::polygon(points)]);
+    let region = numbered(&block);
+    let distance = |p: Point| ((p - Point::new(0.0, -0.5)).norm() - 0.2).max(0.0);
+    let field = Field { radius: Box::new(|_, _| 1.0), pin_distance: Box::new(distance) };
+    let mut flow = CurveFlow::new(&region, Obstacle::CLOSING, field, &Settings::default()).unwrap();
+    let Status::Ended(end) = flow.run(f64::INFINITY) else { panic!("it goes on") };
+    assert!(end.is_limit(), "{end:?}");
+    let result = flow.region();
+    let kept: Vec<&Vertex> = result.rings[0].vertices.iter().filter(|v| v.id.is_some()).collect();
+    let pinned: Vec<&Vertex> = region.rings[0].vertices.iter().filter(|v| distance(v.point) == 0.0).collect();
+    assert!(pinned.len() > 10 && pinned.iter().all(|v| kept.contains(v)));
+    assert!(kept.len() < region.vertex_count() - 10, "the sides of the notch move");
+    let corners = [[-4.0, -4.0], [4.0, -4.0], [4.0, 0.0], [0.5, 0.0], [-0.5, 0.0], [-4.0, 0.0]].map(Point::from);
+    let turn = largest_turn(&result, &corners);
+    assert!(turn < 0.25, "{turn}");
+}
+
 #[test]
 fn the_radius_may_vary_in_the_plane() {
     // Four concave corners along a comb; the radius grows from left to right.
     let region = shapes::comb(5, 20.0, 12.0);
-    let field = Field { radius: Box::new(|p, _| 0.5 + 0.05 * p.x.clamp(0.0, 60.0)), pinned: Box::new(|_| false) };
+    let field =
+        Field { radius: Box::new(|p, _| 0.5 + 0.05 * p.x.clamp(0.0, 60.0)), pin_distance: Box::new(|_| f64::INFINITY) };
     let mut flow = CurveFlow::new(&region, Obstacle::CLOSING, field, &Settings::default()).unwrap();
     let Status::Ended(end) = flow.run(f64::INFINITY) else { panic!("it goes on") };
     assert!(end.is_limit(), "{end:?}");
@@ -311,7 +383,7 @@ fn a_step_looks_at_what_moves_only() {
 fn settings_out_of_range_are_refused() {
     let region = shapes::serif();
     let refused = |settings: Settings, radius: f64| {
-        let field = Field { radius: Box::new(move |_, _| radius), pinned: Box::new(|_| false) };
+        let field = Field { radius: Box::new(move |_, _| radius), pin_distance: Box::new(|_| f64::INFINITY) };
         CurveFlow::new(&region, Obstacle::CLOSING, field, &settings).err()
     };
     let default = Settings::default();

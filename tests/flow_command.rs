@@ -180,6 +180,24 @@ fn pinned_corners_stay_bit_for_bit() {
 }
 
 #[test]
+fn a_flow_of_which_nothing_comes_any_more_ends_with_its_reason_and_the_best_state() {
+    let folder = folder();
+    // Between pins a flow without a bound comes ever nearer to straight lines, and no tolerance like this is ever met.
+    let kite = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100"><path d="M0 0L50 10L100 0L50 100Z"/></svg>"#;
+    fs::write(folder.path().join("kite.svg"), kite).unwrap();
+    let pins = "--pin=-1,-1,2,2 --pin 99,-1,2,2 --pin 49,99,2,2";
+    let output = flow(folder.path(), &format!("kite.svg -r 60mm --bound none --tolerance 1e-13 {pins} -o out.svg"));
+    assert_eq!(output.status.code(), Some(1), "{}", words(&output));
+    assert!(words(&output).contains("STALLED"), "{}", words(&output));
+    let out = folder.path().join("out.svg");
+    for (x, y) in [(0.0, 0.0), (100.0, 0.0), (50.0, 100.0)] {
+        assert_eq!(gone_from(&out, x, y), 0.0, "({x}, {y}) is pinned");
+    }
+    let gone = gone_from(&out, 50.0, 0.0);
+    assert!(gone < 0.01, "the dent is as good as straight: {gone}");
+}
+
+#[test]
 fn radii_vary_along_a_line() {
     let folder = folder();
     flow_well(

@@ -23,7 +23,7 @@ pub use bounds::Bounds;
 pub use chain_tree::ChainTree;
 pub use distance::BoundaryIndex;
 pub use inscribed::{InscribedCircle, inscribed_circle};
-pub use pins::{PinnedArea, PinnedRegion, is_pinned};
+pub use pins::{PinnedArea, PinnedRegion, pin_distance};
 pub use point::{Point, Vector, left_normal, right_normal, turn_angle};
 pub use radius_field::{Gradient, RadiusField, RadiusMap};
 pub use region::{Region, TopologyCount, place_along_curve};

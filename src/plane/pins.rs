@@ -53,6 +53,21 @@ impl PinnedArea {
         }
     }
 
+    /// The distance of `p` from the area; 0 in it.
+    pub fn distance(&self, p: Point) -> f64 {
+        if self.contains(p) {
+            return 0.0;
+        }
+        match self {
+            PinnedArea::Rectangle(b) => {
+                let beyond = |x: f64, low: f64, high: f64| (low - x).max(x - high).max(0.0);
+                beyond(p.x, b.min.x, b.max.x).hypot(beyond(p.y, b.min.y, b.max.y))
+            }
+            PinnedArea::Disk { center, radius } => (p - center).norm() - radius,
+            PinnedArea::Region(region) => region.boundary.distance(p),
+        }
+    }
+
     /// Whether some point of the boundary `outline` lies in the area.
     pub fn touches(&self, outline: &BoundaryIndex) -> bool {
         match self {
@@ -79,9 +94,9 @@ fn meets(outline: &BoundaryIndex, side: &Segment, tolerance: f64) -> bool {
     outline.approach(side).is_some_and(|(_, approach)| approach.distance <= tolerance)
 }
 
-/// Whether `p` lies in one of the areas.
-pub fn is_pinned(areas: &[PinnedArea], p: Point) -> bool {
-    areas.iter().any(|area| area.contains(p))
+/// The distance of `p` from the nearest of the areas; 0 in one of them, infinite where there are none.
+pub fn pin_distance(areas: &[PinnedArea], p: Point) -> f64 {
+    areas.iter().map(|area| area.distance(p)).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
@@ -106,16 +121,21 @@ mod tests {
             (
                 PinnedArea::Disk { center: p(1.0, 0.0), radius: 1.0 },
                 [p(1.0, 0.5), p(2.0, 0.0)],
-                [p(2.1, 0.0), p(0.0, 1.0)],
+                [p(2.1, 0.0), p(1.0, -1.1)],
             ),
             (area, [p(1.5, 0.2), p(0.0, 2.0)], [p(0.9, 0.0), p(2.1, 0.0)]),
         ] {
             assert!(inside.iter().all(|p| area.contains(*p)), "{area:?}");
             assert!(!outside.iter().any(|p| area.contains(*p)), "{area:?}");
-            assert!(is_pinned(&[rectangle([50.0, 51.0], [0.0, 1.0]), area.clone()], inside[0]));
-            assert!(!is_pinned(&[area], outside[0]));
+            let far = rectangle([50.0, 51.0], [0.0, 1.0]);
+            assert_eq!(pin_distance(&[far.clone(), area.clone()], inside[0]), 0.0);
+            for p in outside {
+                // What is as far away from the point as the area is touches it there.
+                let distance = pin_distance(&[far.clone(), area.clone()], p);
+                assert!((distance - 0.1).abs() < 1e-3, "{area:?} is {distance} from {p}");
+            }
         }
-        assert!(!is_pinned(&[], p(0.0, 0.0)));
+        assert_eq!(pin_distance(&[], p(0.0, 0.0)), f64::INFINITY);
     }
 
     #[test]

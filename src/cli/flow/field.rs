@@ -13,7 +13,7 @@ use crate::io::picture::GreyPicture;
 use crate::io::svg::{Parts, RADIUS_ATTRIBUTE};
 use crate::plane::{
     BoundaryIndex, Bounds, Gradient, PinnedArea, PinnedRegion, Point, RadiusField, RadiusMap, Region, VertexId,
-    is_pinned,
+    pin_distance,
 };
 use crate::units::{DrawingScale, Length, Radius};
 
@@ -56,7 +56,8 @@ pub(super) struct FieldArgs {
     /// The radius where the picture is white
     #[arg(long, value_name = "LENGTH", requires = "radius_map", allow_hyphen_values = true)]
     radius_white: Option<Length>,
-    /// A rectangle in which nothing moves; may be given more than once
+    /// A rectangle in which nothing moves; may be given more than once. Nearer to it than half the radius the bound eases: the
+    /// outline meets what is pinned without a corner
     #[arg(long = "pin", value_name = "X,Y,WIDTH,HEIGHT", allow_hyphen_values = true)]
     rectangles: Vec<PinRectangle>,
     /// A circle in which nothing moves; may be given more than once
@@ -78,7 +79,7 @@ impl Field {
     pub(super) fn view(&self) -> crate::flow::Field<'_> {
         crate::flow::Field {
             radius: Box::new(|p, vertex| self.radius(p, vertex)),
-            pinned: Box::new(|p| is_pinned(&self.pins, p)),
+            pin_distance: Box::new(|p| pin_distance(&self.pins, p)),
         }
     }
 

@@ -162,7 +162,9 @@ fn ending(end: Option<End>) -> &'static str {
         Some(End::Still) => "the limit, nothing is sharper than the disk any more",
         Some(End::Slow) => "the limit, nothing moves any more",
         Some(End::Contact) => "STOPPED where the boundary ran into itself",
-        Some(End::Stalled) => "STALLED, vertices go on trembling; try another --edge-length or a smaller --time-step",
+        Some(End::Stalled) => {
+            "STALLED, vertices go on moving, and nothing comes of it; try a larger --tolerance, another --edge-length or a smaller --time-step"
+        }
         Some(End::Singular) => "STOPPED, a step could not be solved; try a smaller --time-step",
     }
 }

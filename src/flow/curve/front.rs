@@ -4,7 +4,7 @@
 
 use super::Field;
 use super::contact::Contacts;
-use super::outline::Outline;
+use super::outline::{Node, Outline};
 use super::runs::{self, Runs};
 use super::turn::{turning, unit_turn};
 use crate::flow::obstacle::{Obstacle, Way};
@@ -30,6 +30,28 @@ pub struct CurveFront<'a> {
     contacts: Contacts,
 }
 
+/// Near a pin the radius is no more than so many times the distance from it: then a boundary may turn on its way to the pin
+/// as far as it has to, since the turns 1 / (2 d) of all its lengths at distances d have no finite sum, and meets it
+/// in no corner; farther away than half the radius nothing is different.
+const EASE: f64 = 2.0;
+
+/// Edges near pins are shorter than elsewhere, by as much as the radius is less there, but by no more than this.
+const FINEST_GRAIN: f64 = 0.25;
+
+/// Gives a node what holds at its place, where the field has this radius.
+fn bind(node: &mut Node, radius: f64, field: &Field, obstacle: Obstacle) {
+    let distance = (field.pin_distance)(node.point);
+    node.pinned = distance <= 0.0;
+    // Without a bound there is none that could be eased.
+    node.radius = if obstacle == Obstacle::NONE { radius } else { radius.min(EASE * distance) };
+    node.field_radius = radius;
+}
+
+/// The radius that edges at a node are measured by.
+fn grain(node: &Node) -> f64 {
+    node.radius.max(FINEST_GRAIN * node.field_radius)
+}
+
 /// In which steps (counted from 1) a node was last looked at, let go and put into a run.
 #[derive(Clone, Copy, Default)]
 struct Mark {
@@ -46,9 +68,8 @@ impl<'a> CurveFront<'a> {
     pub(super) fn new(mut outline: Outline, obstacle: Obstacle, field: Field<'a>, edge: f64) -> CurveFront<'a> {
         let mut smallest = f64::INFINITY;
         for node in &mut outline.nodes {
-            node.radius = (field.radius)(node.point, node.origin);
-            node.pinned = (field.pinned)(node.point);
-            smallest = smallest.min(node.radius);
+            bind(node, (field.radius)(node.point, node.origin), &field, obstacle);
+            smallest = smallest.min(grain(node));
         }
         let mut front = CurveFront {
             contacts: Contacts::default(),
@@ -70,7 +91,7 @@ impl<'a> CurveFront<'a> {
 
     /// The edge length aimed at about node `i`.
     pub(super) fn edge_at(&self, i: u32) -> f64 {
-        self.edge * self.outline.node(i).radius
+        self.edge * grain(self.outline.node(i))
     }
 
     /// Which way node `i` goes in the step that is being taken; `None`: it stays.
@@ -90,7 +111,6 @@ impl<'a> CurveFront<'a> {
         if let Some(mark) = self.marks.get_mut(new as usize) {
             *mark = Mark::default();
         }
-        self.outline.node_mut(new).pinned = (self.field.pinned)(self.outline.node(new).point);
         self.find_radius(new);
         self.changed(i);
         self.changed(new);
@@ -108,7 +128,7 @@ impl<'a> CurveFront<'a> {
         let node = self.outline.node_mut(i);
         let radius = (self.field.radius)(node.point, node.origin);
         if radius.is_normal() && radius > 0.0 {
-            node.radius = radius;
+            bind(node, radius, &self.field, self.obstacle);
         }
     }
 
@@ -248,7 +268,7 @@ impl Front<2> for CurveFront<'_> {
         let (length, doubled_area) = self.measure(&ends, &origins);
         let (mut largest, mut shortest_edge): (f64, f64) = (0.0, f64::INFINITY);
         for (&i, d) in self.moving.iter().zip(&allowed) {
-            let h = self.edge * self.outline.node(i).radius;
+            let h = self.edge_at(i);
             let distance = d.norm() / h;
             largest = largest.max(distance);
             if distance > TREMBLING {

@@ -40,15 +40,18 @@ const TIME_STEPS: RangeInclusive<f64> = 1e-4..=1.0;
 pub struct Field<'a> {
     /// The radius of the disk at a place, and the vertex of the drawing that stands there or that the edge there leaves.
     pub radius: Box<dyn Fn(Point, Option<VertexId>) -> f64 + 'a>,
-    /// Whether what stands at a place stays there whatever its curvature.
-    pub pinned: Box<dyn Fn(Point) -> bool + 'a>,
+    /// How far a place is from what is pinned; 0 there, where everything stays whatever its curvature.
+    ///
+    /// Nearer to a pin than half the radius, twice this distance is the radius: on its way to the pin a boundary may turn as
+    /// far as it has to, but in no corner.
+    pub pin_distance: Box<dyn Fn(Point) -> f64 + 'a>,
 }
 
 impl Field<'_> {
     /// The same radius everywhere, and no pins.
     pub fn constant(radius: Radius) -> Field<'static> {
         let r = radius.get();
-        Field { radius: Box::new(move |_, _| r), pinned: Box::new(|_| false) }
+        Field { radius: Box::new(move |_, _| r), pin_distance: Box::new(|_| f64::INFINITY) }
     }
 }
 

@@ -9,8 +9,10 @@ pub(super) const NONE: u32 = u32::MAX;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub point: Point,
-    /// Radius of the disk here.
+    /// Radius of the disk here: that of the field, and near a pin no more than twice the distance from it.
     pub radius: f64,
+    /// That of the field, pins aside.
+    pub field_radius: f64,
     pub prev: u32,
     pub next: u32,
     pub ring: u32,
@@ -88,6 +90,7 @@ impl Outline {
             self.nodes.push(Node {
                 point: v.point,
                 radius: 0.0,
+                field_radius: 0.0,
                 prev: first + (k + count - 1) % count,
                 next: first + (k + 1) % count,
                 ring,

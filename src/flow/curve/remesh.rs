@@ -76,8 +76,9 @@ impl CurveFront<'_> {
                 continue;
             }
             let (arc, edge) = (self.outline.arcs[node.arc as usize], self.outline.edge(i));
-            let radius = node.radius.min(self.outline.node(node.next).radius);
-            let unit = arc.radius / radius;
+            let next = self.outline.node(node.next);
+            // Where pins hold the ends, the inside may move.
+            let unit = arc.radius / node.field_radius.min(next.field_radius);
             if self.obstacle.release(arc.turn.sign(), unit, 0.0).is_none() {
                 continue;
             }
