@@ -30,6 +30,7 @@
 //! - [`units`]: lengths, radii and feeds, typed, parsed once;
 //! - [`plane`]: points, arcs, rings, regions, distance;
 //! - [`linalg`]: the linear systems of the flow's step;
+//! - [`mesh`]: surfaces in space: half-edges, hierarchies of triangles;
 //! - [`flow`]: the flow whose limits closing and opening are, with its states on the way;
 //! - [`rolling`]: the closing, exactly: a disk rolls on the outline;
 //! - [`mod@reference`]: the closing by polygon offsetting, sharing no code with `rolling`, and a witness by distances;
@@ -47,6 +48,7 @@ pub mod flow;
 pub mod gcode;
 pub mod io;
 pub mod linalg;
+pub mod mesh;
 pub mod plane;
 pub mod preview;
 pub mod reference;

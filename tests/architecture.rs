@@ -9,15 +9,16 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("units", &[]),
     ("plane", &["units"]),
     ("linalg", &[]),
-    ("flow", &["linalg", "plane", "units"]),
-    ("rolling", &["plane", "units"]),
-    ("reference", &["plane", "units"]),
-    ("check", &["plane", "reference", "units"]),
-    ("io", &["plane", "units"]),
+    ("mesh", &["linalg", "units"]),
+    ("flow", &["linalg", "mesh", "plane", "units"]),
+    ("rolling", &["mesh", "plane", "units"]),
+    ("reference", &["mesh", "plane", "units"]),
+    ("check", &["mesh", "plane", "reference", "units"]),
+    ("io", &["mesh", "plane", "units"]),
     ("cam", &["plane", "rolling", "units"]),
     ("gcode", &["cam", "plane", "units"]),
-    ("preview", &["cam", "gcode", "plane", "units"]),
-    ("cli", &["cam", "check", "flow", "gcode", "io", "plane", "preview", "reference", "rolling", "units"]),
+    ("preview", &["cam", "gcode", "mesh", "plane", "units"]),
+    ("cli", &["cam", "check", "flow", "gcode", "io", "mesh", "plane", "preview", "reference", "rolling", "units"]),
 ];
 
 fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -1,0 +1,284 @@
+//! Bounding boxes around bounding boxes around triangles: nearest points, and what a segment meets.
+
+use super::{Feature, Point, Vector, nearest_on_triangle};
+
+/// So many triangles are looked at one by one.
+const LEAF: usize = 4;
+
+/// Deeper than any hierarchy of u32 triangles that is halved at every node.
+const DEPTH: usize = 64;
+
+/// A box of the hierarchy.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    low: Point,
+    high: Point,
+    /// The first of two children, or of the triangles of a leaf.
+    first: u32,
+    /// How many triangles; none: two children.
+    count: u32,
+}
+
+impl Node {
+    /// The square of the distance of `p` from the box.
+    fn distance2(&self, p: &Point) -> f64 {
+        let mut sum = 0.0;
+        for k in 0..3 {
+            let d = (self.low[k] - p[k]).max(p[k] - self.high[k]).max(0.0);
+            sum += d * d;
+        }
+        sum
+    }
+}
+
+/// The nearest point of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// Where it is.
+    pub point: Point,
+    /// How far it is.
+    pub distance: f64,
+    /// The triangle that it lies on; of several the one that was met first.
+    pub face: u32,
+    /// What of the triangle it lies on.
+    pub feature: Feature,
+}
+
+/// Triangles arranged for queries.
+#[derive(Clone, Debug, Default)]
+pub struct Hierarchy {
+    nodes: Vec<Node>,
+    /// The corners of the triangles, in the order of the leaves.
+    triangles: Vec<[Point; 3]>,
+    /// The number of the face that each of them is.
+    faces: Vec<u32>,
+}
+
+impl Hierarchy {
+    /// The hierarchy of all `faces`, or of as many as have corners at `points`.
+    pub fn new(points: &[Point], faces: &[[u32; 3]]) -> Hierarchy {
+        let corners: Vec<[Point; 3]> = faces.iter().map(|f| f.map(|v| points[v as usize])).collect();
+        let mut order: Vec<(Point, u32)> = corners
+            .iter()
+            .zip(0..)
+            .map(|([a, b, c], k)| (Point::from((a.coords + b.coords + c.coords) / 3.0), k))
+            .collect();
+        let mut nodes = Vec::with_capacity(2 * faces.len() / LEAF + 1);
+        if faces.is_empty() {
+            return Hierarchy::default();
+        }
+        let empty = Node { low: Point::origin(), high: Point::origin(), first: 0, count: 0 };
+        nodes.push(empty);
+        let mut open = vec![(0usize, 0usize, faces.len())];
+        while let Some((node, start, end)) = open.pop() {
+            let far = f64::INFINITY;
+            let (mut low, mut high) = (Point::new(far, far, far), Point::new(-far, -far, -far));
+            let (mut least, mut most) = (low, high);
+            for (center, k) in &order[start..end] {
+                (least, most) = (least.inf(center), most.sup(center));
+                for p in &corners[*k as usize] {
+                    (low, high) = (low.inf(p), high.sup(p));
+                }
+            }
+            if end - start <= LEAF {
+                nodes[node] = Node { low, high, first: start as u32, count: (end - start) as u32 };
+                continue;
+            }
+            // The widest axis of the centres, by halves: as deep as it need be, whatever the triangles.
+            let axis = (most - least).imax();
+            let middle = (start + end) / 2;
+            order[start..end]
+                .select_nth_unstable_by(middle - start, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
+            let first = nodes.len() as u32;
+            nodes.extend([empty, empty]);
+            nodes[node] = Node { low, high, first, count: 0 };
+            open.push((first as usize, start, middle));
+            open.push((first as usize + 1, middle, end));
+        }
+        let faces: Vec<u32> = order.iter().map(|(_, k)| *k).collect();
+        let triangles = faces.iter().map(|&k| corners[k as usize]).collect();
+        Hierarchy { nodes, triangles, faces }
+    }
+
+    /// The nearest point of the surface to `p`, if it is nearer than `within`.
+    pub fn nearest(&self, p: Point, within: f64) -> Option<Nearest> {
+        let mut best2 = within * within;
+        let mut best = None;
+        let mut stack = [(0u32, 0.0f64); DEPTH];
+        let mut top = 0;
+        if let Some(root) = self.nodes.first() {
+            stack[0] = (0, root.distance2(&p));
+            top = 1;
+        }
+        while top > 0 {
+            top -= 1;
+            let (node, distance2) = stack[top];
+            if distance2 >= best2 {
+                continue;
+            }
+            let node = &self.nodes[node as usize];
+            if node.count > 0 {
+                for k in node.first..node.first + node.count {
+                    let (point, feature) = nearest_on_triangle(p, self.triangles[k as usize]);
+                    let d2 = (p - point).norm_squared();
+                    if d2 < best2 {
+                        best2 = d2;
+                        best = Some((point, k, feature));
+                    }
+                }
+                continue;
+            }
+            let [near, far] = [node.first, node.first + 1].map(|c| (c, self.nodes[c as usize].distance2(&p)));
+            let (near, far) = if near.1 <= far.1 { (near, far) } else { (far, near) };
+            for child in [far, near] {
+                if child.1 < best2 {
+                    stack[top] = child;
+                    top += 1;
+                }
+            }
+        }
+        best.map(|(point, k, feature)| Nearest { point, distance: best2.sqrt(), face: self.faces[k as usize], feature })
+    }
+
+    /// Whether some point of the surface is nearer to `p` than `distance`.
+    pub fn is_nearer(&self, p: Point, distance: f64) -> bool {
+        let limit = distance * distance;
+        self.any(
+            |node| node.distance2(&p) < limit,
+            |triangle, _| (p - nearest_on_triangle(p, *triangle).0).norm_squared() < limit,
+        )
+    }
+
+    /// Whether the open segment from `a` to `b` meets a triangle.
+    pub fn is_crossed(&self, a: Point, b: Point) -> bool {
+        let along = b - a;
+        let inverse = along.map(|x| 1.0 / x);
+        let meets_box = |node: &Node| {
+            let (mut from, mut to) = (0.0f64, 1.0f64);
+            for k in 0..3 {
+                // A segment in the plane of a side gives no number, and the box is looked into.
+                let (u, v) = ((node.low[k] - a[k]) * inverse[k], (node.high[k] - a[k]) * inverse[k]);
+                from = from.max(u.min(v));
+                to = to.min(u.max(v));
+            }
+            from <= to
+        };
+        self.any(meets_box, |triangle, _| crosses(a, along, triangle))
+    }
+
+    /// Calls `visit` with every face whose box meets the box between `low` and `high`; stops where it answers true, and
+    /// says whether it did.
+    pub fn any_in_box(&self, low: Point, high: Point, mut visit: impl FnMut(u32) -> bool) -> bool {
+        let meets = |l: &Point, h: &Point| (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k]);
+        self.any(
+            |node| meets(&node.low, &node.high),
+            |[a, b, c], face| meets(&a.inf(b).inf(c), &a.sup(b).sup(c)) && visit(face),
+        )
+    }
+
+    /// Whether `hit` holds for a triangle in a box for which `enter` holds.
+    fn any(&self, enter: impl Fn(&Node) -> bool, mut hit: impl FnMut(&[Point; 3], u32) -> bool) -> bool {
+        let mut stack = [0u32; DEPTH];
+        let mut top = usize::from(!self.nodes.is_empty());
+        while top > 0 {
+            top -= 1;
+            let node = &self.nodes[stack[top] as usize];
+            if !enter(node) {
+                continue;
+            }
+            if node.count == 0 {
+                stack[top] = node.first + 1;
+                stack[top + 1] = node.first;
+                top += 2;
+                continue;
+            }
+            let leaf = node.first as usize..(node.first + node.count) as usize;
+            if leaf.into_iter().any(|k| hit(&self.triangles[k], self.faces[k])) {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// Whether a segment from `a` crosses a triangle (Möller and Trumbore, 1997).
+fn crosses(a: Point, along: Vector, [p, q, s]: &[Point; 3]) -> bool {
+    let (e1, e2) = (q - p, s - p);
+    let h = along.cross(&e2);
+    let det = e1.dot(&h);
+    if det == 0.0 {
+        return false;
+    }
+    let from = a - p;
+    let u = from.dot(&h) / det;
+    let cross = from.cross(&e1);
+    let v = along.dot(&cross) / det;
+    let t = e2.dot(&cross) / det;
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points without any order, from a fixed sequence.
+    fn scattered(count: usize, seed: u64) -> Vec<Point> {
+        let mut state = seed;
+        let mut next = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..count).map(|_| Point::new(next(), next(), next())).collect()
+    }
+
+    #[test]
+    fn nearest_points_are_those_of_trying_all_triangles() {
+        let points = scattered(600, 7);
+        let faces: Vec<[u32; 3]> = (0..200).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let hierarchy = Hierarchy::new(&points, &faces);
+        for p in scattered(100, 8) {
+            let all = faces.iter().map(|f| (p - nearest_on_triangle(p, f.map(|v| points[v as usize])).0).norm());
+            let least = all.fold(f64::INFINITY, f64::min);
+            let found = hierarchy.nearest(p, f64::INFINITY).unwrap();
+            assert!((found.distance - least).abs() < 1e-12);
+            assert!((p - found.point).norm() - found.distance < 1e-12);
+            assert!(hierarchy.is_nearer(p, 1.01 * least) && !hierarchy.is_nearer(p, 0.99 * least));
+            assert!(hierarchy.nearest(p, 0.99 * least).is_none());
+        }
+        assert!(Hierarchy::new(&[], &[]).nearest(Point::origin(), f64::INFINITY).is_none());
+    }
+
+    #[test]
+    fn segments_cross_what_lies_between_their_ends() {
+        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Point::from);
+        let hierarchy = Hierarchy::new(&points, &[[0, 1, 2]]);
+        let crossed = |a: [f64; 3], b: [f64; 3]| hierarchy.is_crossed(a.into(), b.into());
+        assert!(crossed([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]));
+        assert!(crossed([0.2, 0.2, -1.0], [0.3, 0.3, 1.0]));
+        assert!(!crossed([0.2, 0.2, 1.0], [0.2, 0.2, 0.1]));
+        assert!(!crossed([0.7, 0.7, 1.0], [0.7, 0.7, -1.0]));
+        assert!(!crossed([0.2, 0.2, 0.0], [0.2, 0.2, 1.0]), "an end on the triangle does not cross it");
+    }
+
+    #[test]
+    fn boxes_are_asked_for_what_is_in_them() {
+        let points = scattered(300, 7);
+        let faces: Vec<[u32; 3]> = (0..100).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let hierarchy = Hierarchy::new(&points, &faces);
+        let (low, high) = (Point::new(0.1, 0.1, 0.1), Point::new(0.3, 0.4, 0.2));
+        let mut found = Vec::new();
+        hierarchy.any_in_box(low, high, |f| {
+            found.push(f);
+            false
+        });
+        found.sort_unstable();
+        let meets = |f: &[u32; 3]| {
+            let [a, b, c] = f.map(|v| points[v as usize]);
+            let (l, h) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+            (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k])
+        };
+        let expected: Vec<u32> = (0..100).filter(|&k| meets(&faces[k as usize])).collect();
+        assert!(!expected.is_empty());
+        assert_eq!(found, expected);
+    }
+}

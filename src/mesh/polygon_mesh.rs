@@ -1,0 +1,55 @@
+//! Surfaces of polygons, as files hold them.
+
+use super::Point;
+
+/// A surface of polygons: triangles, quads and larger faces, in the order of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PolygonMesh {
+    /// The vertices.
+    pub points: Vec<Point>,
+    /// The corners of all polygons, one polygon after the other, as numbers of vertices.
+    corners: Vec<u32>,
+    /// Where each polygon ends in `corners`.
+    ends: Vec<u32>,
+    /// A colour for each vertex, red green blue; or none at all.
+    pub colours: Vec<[u8; 3]>,
+    /// A number for each vertex, of whatever meaning; or none at all.
+    pub scalars: Vec<f64>,
+}
+
+impl PolygonMesh {
+    /// A surface without faces.
+    pub fn new(points: Vec<Point>) -> PolygonMesh {
+        PolygonMesh { points, ..PolygonMesh::default() }
+    }
+
+    /// The surface of triangles.
+    pub fn of_triangles(points: Vec<Point>, faces: &[[u32; 3]]) -> PolygonMesh {
+        let mut mesh = PolygonMesh::new(points);
+        mesh.corners = faces.as_flattened().to_vec();
+        mesh.ends = (1..=faces.len() as u32).map(|k| 3 * k).collect();
+        mesh
+    }
+
+    /// Adds a polygon by the numbers of its corners, counterclockwise seen from outside.
+    pub fn push(&mut self, polygon: &[u32]) {
+        self.corners.extend_from_slice(polygon);
+        self.ends.push(self.corners.len() as u32);
+    }
+
+    /// How many polygons there are.
+    pub fn polygon_count(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The corners of polygon `k`.
+    pub fn polygon(&self, k: usize) -> &[u32] {
+        let start = if k == 0 { 0 } else { self.ends[k - 1] };
+        &self.corners[start as usize..self.ends[k] as usize]
+    }
+
+    /// All polygons, in order.
+    pub fn polygons(&self) -> impl ExactSizeIterator<Item = &[u32]> {
+        (0..self.polygon_count()).map(|k| self.polygon(k))
+    }
+}
