@@ -8,6 +8,7 @@
 //! morphological closing, which sees distance in the plane. Where the locus of the disk's centre does not cross itself
 //! the two agree ([`Outcome::differences`] is empty).
 
+mod ball;
 mod carrier;
 mod crossings;
 mod excess;
@@ -22,6 +23,8 @@ mod solid;
 mod track;
 mod trim;
 mod unite;
+
+pub use ball::{ClosedSurface, SurfaceOptions, close_surface};
 
 use std::f64::consts::PI;
 

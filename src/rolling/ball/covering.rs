@@ -1,0 +1,133 @@
+//! The surface on its way to the closing.
+
+use super::contact::{Ground, Rest, UNTOUCHED};
+use crate::mesh::{HalfEdgeMesh, Point, Vector};
+
+/// What is known of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum State {
+    /// It is where it was, or on a face of the input.
+    Kept,
+    /// The ball at rest touches it.
+    Moved(Rest),
+    /// No ball was found to touch it.
+    Lost,
+}
+
+/// A surface with a state for each vertex. What never moves is never touched.
+pub(super) struct Covering<'a> {
+    pub ground: &'a Ground<'a>,
+    pub mesh: HalfEdgeMesh,
+    pub state: Vec<State>,
+    /// Whether each face is other than it was in the input.
+    pub touched: Vec<bool>,
+    /// The radius that the ball has now.
+    pub radius: f64,
+    /// The edge length aimed at.
+    pub edge: f64,
+}
+
+impl Covering<'_> {
+    pub fn rest(&self, v: u32) -> Option<&Rest> {
+        match &self.state[v as usize] {
+            State::Moved(rest) => Some(rest),
+            _ => None,
+        }
+    }
+
+    pub fn is_kept(&self, v: u32) -> bool {
+        self.state[v as usize] == State::Kept
+    }
+
+    pub fn point(&self, v: u32) -> Point {
+        self.mesh.points[v as usize]
+    }
+
+    /// The faces at vertices that are not kept, in order.
+    pub fn active_faces(&self) -> Vec<u32> {
+        let mut faces: Vec<u32> = Vec::new();
+        for v in 0..self.state.len() as u32 {
+            if !self.is_kept(v) {
+                faces.extend(self.mesh.faces_at(v));
+            }
+        }
+        faces.sort_unstable();
+        faces.dedup();
+        faces
+    }
+
+    /// The edges of the active faces with their lengths, by one half-edge each.
+    pub fn active_edges(&self) -> Vec<(f64, u32)> {
+        let of = |f: u32| self.mesh.half_edges(f);
+        let mut edges: Vec<u32> = self
+            .active_faces()
+            .into_iter()
+            .flat_map(of)
+            .map(|h| self.mesh.twin(h).map_or(h, |t| h.min(t)))
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges.into_iter().map(|h| (self.mesh.length(h), h)).collect()
+    }
+
+    pub fn touch(&mut self, f: u32) {
+        if self.touched.len() < self.mesh.face_count() {
+            self.touched.resize(self.mesh.face_count(), true);
+        }
+        self.touched[f as usize] = true;
+    }
+
+    /// Puts a vertex on an edge.
+    pub fn split(&mut self, h: u32, p: Point, state: State) -> u32 {
+        let twin = self.mesh.twin(h);
+        let w = self.mesh.split(h, p);
+        self.state.push(state);
+        for x in [Some(h), twin].into_iter().flatten() {
+            self.touch(self.mesh.face_of(x));
+        }
+        w
+    }
+
+    /// Of the unit normal of a triangle and those of the balls that touch its moved corners the smallest cosine.
+    pub fn agreement(&self, corners: [u32; 3], normal: &Vector) -> f64 {
+        let Some(unit) = normal.try_normalize(0.0) else { return -1.0 };
+        corners.iter().filter_map(|&v| self.rest(v)).map(|rest| rest.normal.dot(&unit)).fold(1.0, f64::min)
+    }
+
+    /// Whether a triangle dips into the input, as far as its centre and the middles of its sides tell.
+    pub fn dips(&self, [a, b, c]: [Point; 3]) -> bool {
+        let center = Point::from((a.coords + b.coords + c.coords) / 3.0);
+        let middle = |p: &Point, q: &Point| nalgebra::center(p, q);
+        let deepest = DIP * self.edge;
+        [center, middle(&a, &b), middle(&b, &c), middle(&c, &a)]
+            .into_iter()
+            .any(|p| self.ground.depth(p, self.edge) > deepest)
+    }
+
+    /// Rolls the ball to the vertex from where it touched last, or from along `normal`.
+    pub fn roll(&self, x: Point, normal: Vector) -> Option<Rest> {
+        self.ground.rest(x, x + normal * self.radius, self.radius, UNTOUCHED)
+    }
+
+    /// Rolls the ball from one place where it rests to that of a point nearby.
+    pub fn reroll(&self, x: Point, from: &Rest) -> Option<(Point, Rest)> {
+        let rest = self.ground.rest(x, from.center, self.radius, from.contacts)?;
+        let p = rest.point(self.radius);
+        let near = (p - x).norm() < self.edge && (rest.center - from.center).norm() < 0.7 * self.radius + self.edge;
+        near.then_some((p, rest))
+    }
+}
+
+/// Triangles may dip into the input by this part of an edge length: rounding.
+const DIP: f64 = 1e-7;
+
+/// Twice the area of a triangle, as a vector along its normal.
+pub(super) fn area_vector([a, b, c]: [Point; 3]) -> Vector {
+    (b - a).cross(&(c - a))
+}
+
+/// The quality of a triangle: 1 where it is equilateral, 0 where it is flat.
+pub(super) fn quality([a, b, c]: [Point; 3]) -> f64 {
+    let sum = (b - a).norm_squared() + (c - b).norm_squared() + (a - c).norm_squared();
+    if sum > 0.0 { 2.0 * 3f64.sqrt() * area_vector([a, b, c]).norm() / sum } else { 0.0 }
+}

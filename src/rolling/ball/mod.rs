@@ -1,0 +1,307 @@
+//! The closing of surfaces, directly: a ball rolls on the input, and every vertex that it cannot touch goes to where the
+//! ball comes to rest nearest to it.
+//!
+//! A vertex x moves if and only if no ball of radius r that is empty of the input touches it. The centre nearest to x of all that
+//! the ball may have, y, is found by contact ([`contact`]); x' = y + r (x - y) / |x - y| is a point of the closing, and
+//! (y - x') / r its normal there. As C_r(C_s(A)) = C_r(A) for s < r, the radius is reached in steps, with the triangles made good in
+//! between ([`remesh`]); contacts are always with the input, so nothing adds up.
+
+mod contact;
+mod covering;
+mod half_spaces;
+mod parallel;
+mod remesh;
+
+use contact::{Ground, Rest};
+use covering::{Covering, State};
+
+use crate::mesh::{HalfEdgeMesh, Hierarchy, NONE, NotManifold, Point, TriangleMesh, Vector};
+use crate::units::Radius;
+
+/// Radii on the way, as parts of the last.
+const LEVELS: [f64; 3] = [0.25, 0.5, 1.0];
+
+/// Balls that are nearer to the input than their radius by less than this part of it touch it.
+const TOUCHING: f64 = 1e-8;
+
+/// Rounds of remeshing on the way, and in the end.
+const ROUNDS: usize = 3;
+const LAST_ROUNDS: usize = 5;
+
+/// Coarse faces near what moves are cut so often at most.
+const CUTS: usize = 8;
+
+/// A vertex that would move by less than this many sagittas of its edges stays, and by less than so many edge lengths: the
+/// samples of a surface that the ball fits are on it, not their chords.
+const SAGITTAS: f64 = 2.0;
+const DEAD_BAND: f64 = 0.05;
+
+/// How a surface is closed.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceOptions {
+    /// The radius of the ball.
+    pub radius: Radius,
+    /// The length of edges where the surface moves.
+    pub edge: f64,
+    /// How many threads work; the result does not depend on it.
+    pub threads: usize,
+}
+
+/// A closed surface.
+#[derive(Clone, Debug, Default)]
+pub struct ClosedSurface {
+    /// Vertices: those of the input first, in its order, as far as they are left.
+    pub points: Vec<Point>,
+    /// The vertex of the input that each of them is, bit for bit; [`NONE`] for those that moved or are new.
+    pub origins: Vec<u32>,
+    /// Faces, those of the input first, in its order, as far as they are left.
+    pub faces: Vec<[u32; 3]>,
+    /// The face of the input that each of them is; [`NONE`] for those that changed.
+    pub parents: Vec<u32>,
+    /// Places where the ball found no rest or the surface would tear.
+    pub conflicts: Vec<Point>,
+}
+
+/// Closes a surface with a ball.
+///
+/// # Errors
+/// Where the faces form no surface.
+pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<ClosedSurface, NotManifold> {
+    let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
+    let hierarchy = Hierarchy::new(&input.points, &input.faces);
+    let ground = Ground { mesh: &mesh, hierarchy: &hierarchy };
+    let mut covering = Covering {
+        ground: &ground,
+        mesh: mesh.clone(),
+        state: vec![State::Kept; input.points.len()],
+        touched: vec![false; input.faces.len()],
+        radius: options.radius.get(),
+        edge: options.edge,
+    };
+    let normals = input.vertex_normals();
+    let mut roll = Roll { normals, threads: options.threads };
+    let r = options.radius.get();
+    // What the whole ball can touch, smaller ones can.
+    let mut moving: Vec<u32> = roll.untouched(&covering, (0..input.points.len() as u32).collect());
+    let verbose = std::env::var_os("BALL").is_some();
+    for (k, part) in LEVELS.iter().enumerate() {
+        covering.radius = part * r;
+        let t = std::time::Instant::now();
+        roll.advance(&mut covering, &mut moving);
+        let lost = covering.state.iter().filter(|s| **s == State::Lost).count();
+        let t1 = t.elapsed();
+        let last = k + 1 == LEVELS.len();
+        covering.remesh(if last { LAST_ROUNDS } else { ROUNDS });
+        if verbose {
+            eprintln!("level {part}: moved {} lost {lost} {:?} remesh {:?}", covering.state.iter().filter(|s| **s != State::Kept).count(), t1, t.elapsed() - t1);
+        }
+    }
+    Ok(result(input, &covering))
+}
+
+/// What goes on from level to level.
+struct Roll {
+    /// Directions in which to look for a ball first.
+    normals: Vec<Vector>,
+    threads: usize,
+}
+
+/// Where a vertex is to go.
+#[derive(Clone, Copy, Debug)]
+enum Target {
+    Stays,
+    Lost,
+    Goes(Point, Rest),
+}
+
+impl Roll {
+    /// The vertices of `among` that the ball does not touch along their normals.
+    fn untouched(&self, covering: &Covering, among: Vec<u32>) -> Vec<u32> {
+        let r = covering.radius;
+        let is_untouched = parallel::map(&among, self.threads, |&v| {
+            covering.mesh.has_vertex(v)
+                && covering.ground.hierarchy.is_nearer(
+                    covering.point(v) + self.normals[v as usize] * r,
+                    r * (1.0 - TOUCHING),
+                )
+        });
+        among.into_iter().zip(is_untouched).filter(|(_, is)| *is).map(|(v, _)| v).collect()
+    }
+
+    /// Moves the surface to where a ball of the covering's radius touches.
+    fn advance(&mut self, covering: &mut Covering, moving: &mut Vec<u32>) {
+        let mut targets: Vec<Option<Target>> = vec![None; covering.state.len()];
+        let mut open: Vec<u32> = (0..covering.state.len() as u32)
+            .filter(|&v| covering.mesh.has_vertex(v) && !covering.is_kept(v))
+            .chain(moving.iter().copied().filter(|&v| covering.is_kept(v) && covering.mesh.has_vertex(v)))
+            .collect();
+        open.sort_unstable();
+        for cut in 0..=CUTS {
+            let found = parallel::map(&open, self.threads, |&v| self.target(covering, v));
+            for (&v, target) in open.iter().zip(found) {
+                targets[v as usize] = Some(target);
+            }
+            if cut == CUTS {
+                break;
+            }
+            open = self.cut_coarse(covering, &mut targets, moving);
+            if open.is_empty() {
+                break;
+            }
+        }
+        for (v, target) in targets.into_iter().enumerate() {
+            match target {
+                None | Some(Target::Stays) => {}
+                Some(Target::Lost) => covering.state[v] = State::Lost,
+                Some(Target::Goes(p, rest)) => {
+                    covering.mesh.points[v] = p;
+                    covering.state[v] = State::Moved(rest);
+                }
+            }
+        }
+        for v in 0..covering.state.len() as u32 {
+            if !covering.is_kept(v) {
+                for f in covering.mesh.faces_at(v).collect::<Vec<_>>() {
+                    covering.touch(f);
+                }
+            }
+        }
+        self.find_lost(covering);
+    }
+
+    /// Where a vertex goes.
+    fn target(&self, covering: &Covering, v: u32) -> Target {
+        let (x, r) = (covering.point(v), covering.radius);
+        let normal = match covering.rest(v) {
+            Some(rest) => rest.normal,
+            None if covering.is_kept(v) => self.normals[v as usize],
+            None => {
+                let sum: Vector = covering.mesh.faces_at(v).map(|f| covering.mesh.area_vector(f)).sum();
+                sum.try_normalize(0.0).unwrap_or_default()
+            }
+        };
+        let is_kept = covering.is_kept(v);
+        if is_kept && !covering.ground.hierarchy.is_nearer(x + normal * r, r * (1.0 - TOUCHING)) {
+            return Target::Stays;
+        }
+        let Some(rest) = covering.roll(x, normal) else { return Target::Lost };
+        if is_kept {
+            let around: Vec<f64> = covering.mesh.spokes(v).map(|h| covering.mesh.length(h)).collect();
+            let mean = around.iter().sum::<f64>() / around.len().max(1) as f64;
+            let dead = (SAGITTAS * mean * mean / (8.0 * r)).min(DEAD_BAND * covering.edge);
+            if (rest.center - x).norm() - r <= dead {
+                return Target::Stays;
+            }
+        }
+        // The ball must lie on this side of the surface.
+        let start = x + (rest.center - x) * 1e-6;
+        if covering.ground.hierarchy.is_crossed(start, rest.center) {
+            return Target::Lost;
+        }
+        Target::Goes(rest.point(r), rest)
+    }
+
+    /// Cuts long edges of the input beside vertices that are to move; the new vertices.
+    fn cut_coarse(
+        &mut self,
+        covering: &mut Covering,
+        targets: &mut Vec<Option<Target>>,
+        moving: &mut Vec<u32>,
+    ) -> Vec<u32> {
+        let goes = |targets: &[Option<Target>], v: u32| {
+            matches!(targets.get(v as usize), Some(Some(Target::Goes(..) | Target::Lost)))
+        };
+        let mut edges: Vec<u32> = (0..covering.state.len() as u32)
+            .filter(|&v| goes(targets, v))
+            .flat_map(|v| covering.mesh.faces_at(v).collect::<Vec<_>>())
+            .flat_map(|f| covering.mesh.half_edges(f))
+            .map(|h| covering.mesh.twin(h).map_or(h, |t| h.min(t)))
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let on_input = |covering: &Covering, v: u32| covering.is_kept(v);
+        let mut long: Vec<(f64, u32)> = edges
+            .into_iter()
+            .filter(|&h| on_input(covering, covering.mesh.origin(h)) && on_input(covering, covering.mesh.target(h)))
+            .map(|h| (covering.mesh.length(h), h))
+            .filter(|(length, _)| *length > remesh::LONGEST * covering.edge)
+            .collect();
+        long.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut new = Vec::new();
+        for (_, h) in long {
+            let mesh = &covering.mesh;
+            let middle = nalgebra::center(&covering.point(mesh.origin(h)), &covering.point(mesh.target(h)));
+            let faces = [Some(h), mesh.twin(h)].into_iter().flatten().map(|x| mesh.area_vector(mesh.face_of(x)));
+            let normal: Vector = faces.filter_map(|n| n.try_normalize(0.0)).sum();
+            let w = covering.split(h, middle, State::Kept);
+            self.normals.resize(covering.state.len(), Vector::zeros());
+            self.normals[w as usize] = normal.try_normalize(0.0).unwrap_or_default();
+            targets.push(None);
+            moving.push(w);
+            new.push(w);
+        }
+        new
+    }
+
+    /// Looks for a rest of vertices without one, from where their neighbours came to rest.
+    fn find_lost(&self, covering: &mut Covering) {
+        loop {
+            let lost: Vec<u32> =
+                (0..covering.state.len() as u32).filter(|&v| covering.state[v as usize] == State::Lost).collect();
+            let found = parallel::map(&lost, self.threads, |&v| {
+                let rests: Vec<(Vector, Vector)> = covering
+                    .mesh
+                    .neighbours(v)
+                    .filter_map(|u| covering.rest(u).map(|rest| (covering.point(u).coords, rest.center.coords)))
+                    .collect();
+                let count = rests.len() as f64;
+                let mean = |of: fn(&(Vector, Vector)) -> Vector| Point::from(rests.iter().map(of).sum::<Vector>() / count);
+                let (x, y) = (mean(|r| r.0), mean(|r| r.1));
+                if rests.is_empty() {
+                    return None;
+                }
+                let rest = covering.ground.rest(x, y, covering.radius, contact::UNTOUCHED)?;
+                (!covering.ground.hierarchy.is_crossed(x, rest.center)).then_some(rest)
+            });
+            let mut any = false;
+            for (v, rest) in lost.into_iter().zip(found) {
+                if let Some(rest) = rest {
+                    covering.mesh.points[v as usize] = rest.point(covering.radius);
+                    covering.state[v as usize] = State::Moved(rest);
+                    any = true;
+                }
+            }
+            if !any {
+                return;
+            }
+        }
+    }
+}
+
+/// What is left of the input, then what is new.
+fn result(input: &TriangleMesh, covering: &Covering) -> ClosedSurface {
+    let mut closed = ClosedSurface::default();
+    let mut number = vec![NONE; covering.mesh.points.len()];
+    for v in 0..covering.mesh.points.len() {
+        if v < input.points.len() || covering.mesh.has_vertex(v as u32) {
+            let is_gone = !covering.mesh.has_vertex(v as u32) && input.faces.iter().any(|_| true);
+            if is_gone {
+                continue;
+            }
+            number[v] = closed.points.len() as u32;
+            closed.points.push(covering.mesh.points[v]);
+            let is_input = v < input.points.len() && covering.is_kept(v as u32);
+            closed.origins.push(if is_input { v as u32 } else { NONE });
+        }
+    }
+    for f in covering.mesh.faces() {
+        closed.faces.push(covering.mesh.face(f).map(|v| number[v as usize]));
+        closed.parents.push(if covering.touched[f as usize] { NONE } else { f });
+    }
+    for (v, state) in covering.state.iter().enumerate() {
+        if *state == State::Lost {
+            closed.conflicts.push(covering.mesh.points[v]);
+        }
+    }
+    closed
+}

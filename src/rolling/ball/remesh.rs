@@ -1,0 +1,212 @@
+//! Triangles of one size and good shape where the surface moved, on the closing itself: every vertex that is put in or moved
+//! is where a ball at rest touches.
+
+use super::covering::{Covering, State, area_vector, quality};
+use crate::mesh::{NONE, Point};
+
+/// Edges shorter and longer than so many edge lengths are merged and split.
+const SHORTEST: f64 = 0.4;
+pub(super) const LONGEST: f64 = 1.5;
+
+/// A split is worth it where both halves are within these parts of the edge.
+const HALVES: [f64; 2] = [0.2, 0.95];
+
+/// Triangles of a quality below this are bad.
+const BAD: f64 = 0.2;
+
+/// Faces and balls that agree by less than this cosine do not agree.
+const DISAGREES: f64 = 0.5;
+
+/// Vertices of triangles that are worse than this, or agree less with their balls, are relaxed.
+const RELAXED: f64 = 0.6;
+
+impl Covering<'_> {
+    /// So many rounds of merging, splitting, turning and relaxing.
+    pub fn remesh(&mut self, rounds: usize) {
+        for _ in 0..rounds {
+            self.merge_short();
+            self.split_long();
+            for _ in 0..3 {
+                if !self.turn_edges() {
+                    break;
+                }
+            }
+            self.relax();
+        }
+    }
+
+    fn merge_short(&mut self) {
+        let mut edges = self.active_edges();
+        edges.retain(|(length, _)| *length < SHORTEST * self.edge);
+        edges.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for (_, h) in edges {
+            if self.mesh.origin(h) == NONE || self.mesh.length(h) >= SHORTEST * self.edge {
+                continue;
+            }
+            let both = [self.mesh.twin(h), Some(h)];
+            if let Some(h) = both.into_iter().flatten().find(|&h| self.may_merge(h)) {
+                let (a, b) = (self.mesh.origin(h), self.mesh.target(h));
+                self.mesh.collapse(h);
+                self.state[a as usize] = State::Kept;
+                for f in self.mesh.faces_at(b).collect::<Vec<_>>() {
+                    self.touch(f);
+                }
+            }
+        }
+    }
+
+    /// Whether the vertex at the start of `h` may go into the one at its end.
+    fn may_merge(&self, h: u32) -> bool {
+        let (a, b) = (self.mesh.origin(h), self.mesh.target(h));
+        if self.is_kept(a) || !self.mesh.can_collapse(h) {
+            return false;
+        }
+        let target = self.point(b);
+        self.mesh.faces_at(a).all(|f| {
+            let corners = self.mesh.face(f);
+            if corners.contains(&b) {
+                return true;
+            }
+            let before = self.mesh.triangle(f);
+            let moved = corners.map(|v| if v == a { b } else { v });
+            let after = moved.map(|v| self.point(v));
+            let (n0, n1) = (area_vector(before), area_vector(after));
+            let (s0, s1) = (self.agreement(corners, &n0), self.agreement(moved, &n1));
+            let (q0, q1) = (quality(before), quality(after));
+            let folds = n0.dot(&n1) < 0.7 * n0.norm() * n1.norm() && s0 > 0.3;
+            let reaches = |v: u32| {
+                let length = (self.point(v) - target).norm();
+                length > LONGEST * self.edge && length > (self.point(v) - self.point(a)).norm()
+            };
+            let is_worse = (q1 < BAD && q1 < q0) || (s1 < DISAGREES && s1 < s0);
+            !is_worse && !folds && !corners.iter().any(|&v| v != a && reaches(v)) && !self.dips(after)
+        })
+    }
+
+    fn split_long(&mut self) {
+        let mut edges = self.active_edges();
+        edges.retain(|(length, _)| *length > LONGEST * self.edge);
+        edges.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        for (_, h) in edges {
+            if let Some((p, rest)) = self.middle(h) {
+                self.split(h, p, State::Moved(rest));
+            }
+        }
+    }
+
+    /// Where the ball touches that comes to the middle of an edge, if that is well between its ends.
+    fn middle(&self, h: u32) -> Option<(Point, super::contact::Rest)> {
+        let (a, b) = (self.mesh.origin(h), self.mesh.target(h));
+        let (p, q) = (self.point(a), self.point(b));
+        let mut from = *self.rest(a).or(self.rest(b))?;
+        if let (Some(s), Some(t)) = (self.rest(a), self.rest(b)) {
+            from.center = nalgebra::center(&s.center, &t.center);
+            from.contacts = super::contact::UNTOUCHED;
+        }
+        let x = nalgebra::center(&p, &q);
+        let rest = self.ground.rest(x, from.center, self.radius, from.contacts)?;
+        let found = rest.point(self.radius);
+        let length = (q - p).norm();
+        let parts = [(found - p).norm() / length, (found - q).norm() / length];
+        parts.iter().all(|part| (HALVES[0]..HALVES[1]).contains(part)).then_some((found, rest))
+    }
+
+    /// Turns edges where that makes better triangles; whether any did.
+    fn turn_edges(&mut self) -> bool {
+        let mut any = false;
+        for (_, h) in self.active_edges() {
+            if self.may_turn(h) {
+                let t = self.mesh.twin(h);
+                self.mesh.flip(h);
+                for x in [Some(h), t].into_iter().flatten() {
+                    self.touch(self.mesh.face_of(x));
+                }
+                any = true;
+            }
+        }
+        any
+    }
+
+    fn may_turn(&self, h: u32) -> bool {
+        let Some(t) = self.mesh.twin(h) else { return false };
+        let (a, b, c, d) = (self.mesh.origin(h), self.mesh.target(h), self.mesh.opposite(h), self.mesh.opposite(t));
+        if self.is_kept(a) && self.is_kept(b) {
+            return false;
+        }
+        let at = |corners: [u32; 3]| corners.map(|v| self.point(v));
+        let (before, after) = ([[a, b, c], [b, a, d]], [[d, c, a], [c, d, b]]);
+        let least = |faces: [[u32; 3]; 2], of: &dyn Fn([u32; 3]) -> f64| of(faces[0]).min(of(faces[1]));
+        let shape = |f: [u32; 3]| quality(at(f));
+        let agreement = |f: [u32; 3]| self.agreement(f, &area_vector(at(f)));
+        let (q0, q1) = (least(before, &shape), least(after, &shape));
+        if q1 < 1.05 * q0 + 0.01 {
+            return false;
+        }
+        let (s0, s1) = (least(before, &agreement), least(after, &agreement));
+        if s1 < 0.2 || (s1 < s0 - 0.02 && s1 < 0.8) {
+            return false;
+        }
+        // What is flat stays flat: the two faces turn no more than the ball does over three edges.
+        let flat = (3.0 * self.edge / self.radius).min(1.0).cos();
+        let bend = |faces: [[u32; 3]; 2]| {
+            let [m, n] = faces.map(|f| area_vector(at(f)));
+            m.dot(&n) / (m.norm() * n.norm())
+        };
+        if s0 > 0.2 && (bend(before) < flat || bend(after) < flat) {
+            return false;
+        }
+        self.mesh.can_flip(h) && !self.dips(at(after[0])) && !self.dips(at(after[1]))
+    }
+
+    /// Moves vertices of bad triangles to the middle of their faces, along the closing.
+    fn relax(&mut self) {
+        let mut bad: Vec<u32> = Vec::new();
+        for f in self.active_faces() {
+            let (corners, triangle) = (self.mesh.face(f), self.mesh.triangle(f));
+            if quality(triangle) < RELAXED || self.agreement(corners, &area_vector(triangle)) < RELAXED {
+                bad.extend(corners.iter().filter(|&&v| self.rest(v).is_some()));
+            }
+        }
+        bad.sort_unstable();
+        bad.dedup();
+        for v in bad {
+            self.relax_one(v);
+        }
+    }
+
+    fn relax_one(&mut self, v: u32) {
+        let Some(&rest) = self.rest(v) else { return };
+        let x = self.point(v);
+        let (mut middle, mut weight) = (nalgebra::Vector3::zeros(), 0.0);
+        for f in self.mesh.faces_at(v) {
+            let [a, b, c] = self.mesh.triangle(f);
+            let area = area_vector([a, b, c]).norm();
+            middle += (a.coords + b.coords + c.coords) * (area / 3.0);
+            weight += area;
+        }
+        if weight <= 0.0 {
+            return;
+        }
+        let (q0, s0) = self.fan(v);
+        let towards = middle / weight - x.coords;
+        let along = if s0 < 0.2 { towards } else { towards - rest.normal * towards.dot(&rest.normal) };
+        let Some((p, found)) = self.reroll(x + along, &rest) else { return };
+        self.mesh.points[v as usize] = p;
+        self.state[v as usize] = State::Moved(found);
+        let (q1, s1) = self.fan(v);
+        let is_better = (s0 < 0.2 && s1 > s0) || (s1 >= s0.min(RELAXED) - 0.01 && q1 > q0);
+        if !is_better || self.mesh.faces_at(v).any(|f| self.dips(self.mesh.triangle(f))) {
+            self.mesh.points[v as usize] = x;
+            self.state[v as usize] = State::Moved(rest);
+        }
+    }
+
+    /// The worst quality and agreement of the faces at a vertex.
+    fn fan(&self, v: u32) -> (f64, f64) {
+        self.mesh.faces_at(v).fold((1.0, 1.0), |(q, s), f| {
+            let triangle = self.mesh.triangle(f);
+            let agreement = self.agreement(self.mesh.face(f), &area_vector(triangle));
+            (f64::min(q, quality(triangle)), f64::min(s, agreement))
+        })
+    }
+}
