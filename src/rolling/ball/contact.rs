@@ -18,6 +18,10 @@ const NEARLY_MET: f64 = 1e-4;
 /// contacts are right to second order.
 const SETTLED: f64 = 1e-3;
 
+/// After so many steps any free centre is good: with its contacts it gives a point of the closing, if not the nearest one.
+/// Nearly parallel contacts settle slowly.
+const PATIENCE: usize = 10;
+
 /// No step is longer than this part of the radius: half-spaces speak of what is near.
 const LONGEST_STEP: f64 = 0.7;
 
@@ -39,8 +43,9 @@ pub(super) struct Ground<'a> {
 /// A ball at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rest {
-    /// Its centre.
+    /// Its centre and radius.
     pub center: Point,
+    pub radius: f64,
     /// The unit vector from the surface towards the centre: the normal of the result.
     pub normal: Vector,
     /// Triangles that hold it; [`NONE`] where fewer do.
@@ -51,9 +56,9 @@ pub(super) struct Rest {
 pub(super) const UNTOUCHED: [u32; 3] = [NONE; 3];
 
 impl Rest {
-    /// The point of the result that a ball of radius `r` touches here.
-    pub fn point(&self, r: f64) -> Point {
-        self.center - self.normal * r
+    /// The point of the result that it touches.
+    pub fn point(&self) -> Point {
+        self.center - self.normal * self.radius
     }
 }
 
@@ -124,10 +129,12 @@ impl Ground<'_> {
                         set.push(hit.face);
                     }
                     Some(hit) if step < 1e-9 * r => {
-                        return (hit.distance > r * (1.0 - 1e-6)).then(|| at_rest(x, y, held)).flatten();
+                        return (hit.distance > r * (1.0 - 1e-6)).then(|| at_rest(x, y, r, held)).flatten();
                     }
                     Some(_) => {}
-                    None if !set.is_empty() && step < SETTLED * r => return at_rest(x, y, held),
+                    None if !set.is_empty() && (step < SETTLED * r || round > PATIENCE) => {
+                        return at_rest(x, y, r, held);
+                    }
                     None if set.is_empty() => set.push(self.hierarchy.nearest(y, 2.0 * r)?.face),
                     None => {}
                 }
@@ -135,7 +142,8 @@ impl Ground<'_> {
             spaces.clear();
             spaces.extend(set.iter().map(|&t| self.half_space(t, y, r)));
             let next = nearest(x, &spaces, MET * r, NEARLY_MET * r)?;
-            let by = next.by.map(|(k, multiplier)| (set[k.min(set.len() - 1)], multiplier, spaces[k.min(spaces.len() - 1)]));
+            let by =
+                next.by.map(|(k, multiplier)| (set[k.min(set.len() - 1)], multiplier, spaces[k.min(spaces.len() - 1)]));
             held = Some((by, next.count));
             let motion = next.point - y;
             step = motion.norm();
@@ -168,7 +176,7 @@ impl Ground<'_> {
 type Hold = ([(u32, f64, HalfSpace); 3], usize);
 
 /// The ball at `y`, with what holds it: the direction to the surface is that of the forces of its contacts.
-fn at_rest(x: Point, y: Point, held: Option<Hold>) -> Option<Rest> {
+fn at_rest(x: Point, y: Point, radius: f64, held: Option<Hold>) -> Option<Rest> {
     let (by, count) = held?;
     let force: Vector = by[..count].iter().map(|(_, multiplier, s)| s.normal * *multiplier).sum();
     let normal = force.try_normalize(0.0).or_else(|| (y - x).try_normalize(0.0))?;
@@ -176,5 +184,5 @@ fn at_rest(x: Point, y: Point, held: Option<Hold>) -> Option<Rest> {
     for (contact, b) in contacts.iter_mut().zip(&by[..count]) {
         *contact = b.0;
     }
-    (count > 0).then_some(Rest { center: y, normal, contacts })
+    (count > 0).then_some(Rest { center: y, radius, normal, contacts })
 }

@@ -21,8 +21,12 @@ pub(super) struct Covering<'a> {
     pub state: Vec<State>,
     /// Whether each face is other than it was in the input.
     pub touched: Vec<bool>,
-    /// The radius that the ball has now.
-    pub radius: f64,
+    /// The face of the input that each face is a part of, or took the place of.
+    pub parent: Vec<u32>,
+    /// The part of its radius that the ball has now.
+    pub part: f64,
+    /// Its radius at a place.
+    pub field: &'a (dyn Fn(Point) -> f64 + Sync),
     /// The edge length aimed at.
     pub edge: f64,
 }
@@ -35,12 +39,22 @@ impl Covering<'_> {
         }
     }
 
+    /// The radius of the ball at a place.
+    pub fn radius(&self, p: Point) -> f64 {
+        self.part * (self.field)(p)
+    }
+
     pub fn is_kept(&self, v: u32) -> bool {
         self.state[v as usize] == State::Kept
     }
 
     pub fn point(&self, v: u32) -> Point {
         self.mesh.points[v as usize]
+    }
+
+    /// Whether any face of the input is at one of its vertices.
+    pub fn has_been_used(&self, v: u32) -> bool {
+        self.ground.mesh.has_vertex(v)
     }
 
     /// The faces at vertices that are not kept, in order.
@@ -59,12 +73,8 @@ impl Covering<'_> {
     /// The edges of the active faces with their lengths, by one half-edge each.
     pub fn active_edges(&self) -> Vec<(f64, u32)> {
         let of = |f: u32| self.mesh.half_edges(f);
-        let mut edges: Vec<u32> = self
-            .active_faces()
-            .into_iter()
-            .flat_map(of)
-            .map(|h| self.mesh.twin(h).map_or(h, |t| h.min(t)))
-            .collect();
+        let mut edges: Vec<u32> =
+            self.active_faces().into_iter().flat_map(of).map(|h| self.mesh.twin(h).map_or(h, |t| h.min(t))).collect();
         edges.sort_unstable();
         edges.dedup();
         edges.into_iter().map(|h| (self.mesh.length(h), h)).collect()
@@ -82,6 +92,9 @@ impl Covering<'_> {
         let twin = self.mesh.twin(h);
         let w = self.mesh.split(h, p);
         self.state.push(state);
+        for x in [Some(h), twin].into_iter().flatten() {
+            self.parent.push(self.parent[self.mesh.face_of(x) as usize]);
+        }
         for x in [Some(h), twin].into_iter().flatten() {
             self.touch(self.mesh.face_of(x));
         }
@@ -106,14 +119,15 @@ impl Covering<'_> {
 
     /// Rolls the ball to the vertex from where it touched last, or from along `normal`.
     pub fn roll(&self, x: Point, normal: Vector) -> Option<Rest> {
-        self.ground.rest(x, x + normal * self.radius, self.radius, UNTOUCHED)
+        let r = self.radius(x);
+        self.ground.rest(x, x + normal * r, r, UNTOUCHED)
     }
 
     /// Rolls the ball from one place where it rests to that of a point nearby.
     pub fn reroll(&self, x: Point, from: &Rest) -> Option<(Point, Rest)> {
-        let rest = self.ground.rest(x, from.center, self.radius, from.contacts)?;
-        let p = rest.point(self.radius);
-        let near = (p - x).norm() < self.edge && (rest.center - from.center).norm() < 0.7 * self.radius + self.edge;
+        let rest = self.ground.rest(x, from.center, self.radius(x), from.contacts)?;
+        let p = rest.point();
+        let near = (p - x).norm() < self.edge && (rest.center - from.center).norm() < 0.7 * rest.radius + self.edge;
         near.then_some((p, rest))
     }
 }

@@ -46,7 +46,8 @@ pub(super) fn nearest(x: Point, spaces: &[HalfSpace], tolerance: f64, slack: f64
     };
     let gap: Vec<f64> = spaces.iter().map(|s| s.offset - s.normal.dot(&x.coords)).collect();
     for (i, s) in spaces.iter().enumerate() {
-        if gap[i] > 0.0 && consider(Held { point: x + s.normal * gap[i], by: [(i, gap[i]), (0, 0.0), (0, 0.0)], count: 1 })
+        if gap[i] > 0.0
+            && consider(Held { point: x + s.normal * gap[i], by: [(i, gap[i]), (0, 0.0), (0, 0.0)], count: 1 })
         {
             return best.map(|b| b.1);
         }
@@ -61,7 +62,9 @@ pub(super) fn nearest(x: Point, spaces: &[HalfSpace], tolerance: f64, slack: f64
             }
             let a = (gap[i] - cosine * gap[j]) / determinant;
             let b = (gap[j] - cosine * gap[i]) / determinant;
-            if a >= 0.0 && b >= 0.0 && consider(Held { point: x + m * a + n * b, by: [(i, a), (j, b), (0, 0.0)], count: 2 })
+            if a >= 0.0
+                && b >= 0.0
+                && consider(Held { point: x + m * a + n * b, by: [(i, a), (j, b), (0, 0.0)], count: 2 })
             {
                 return best.map(|b| b.1);
             }

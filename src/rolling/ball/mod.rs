@@ -6,17 +6,19 @@
 //! (y - x') / r its normal there. As C_r(C_s(A)) = C_r(A) for s < r, the radius is reached in steps, with the triangles made good in
 //! between ([`remesh`]); contacts are always with the input, so nothing adds up.
 
+mod conflicts;
 mod contact;
 mod covering;
 mod half_spaces;
 mod parallel;
 mod remesh;
+mod result;
 
+pub use conflicts::{Conflict, Trouble};
 use contact::{Ground, Rest};
 use covering::{Covering, State};
 
-use crate::mesh::{HalfEdgeMesh, Hierarchy, NONE, NotManifold, Point, TriangleMesh, Vector};
-use crate::units::Radius;
+use crate::mesh::{HalfEdgeMesh, Hierarchy, NotManifold, Point, TriangleMesh, Vector};
 
 /// Radii on the way, as parts of the last.
 const LEVELS: [f64; 3] = [0.25, 0.5, 1.0];
@@ -31,16 +33,25 @@ const LAST_ROUNDS: usize = 5;
 /// Coarse faces near what moves are cut so often at most.
 const CUTS: usize = 8;
 
+/// So often it is tried again, with smaller balls around what could not be done.
+const ATTEMPTS: usize = 3;
+
+/// Around a conflict nothing moves within this part of the radius, and from there the radius grows by this much for every
+/// unit of distance, as it does from what is pinned.
+const CLEARANCE: f64 = 0.5;
+const EASE: f64 = 0.7;
+
 /// A vertex that would move by less than this many sagittas of its edges stays, and by less than so many edge lengths: the
 /// samples of a surface that the ball fits are on it, not their chords.
 const SAGITTAS: f64 = 2.0;
 const DEAD_BAND: f64 = 0.05;
 
 /// How a surface is closed.
-#[derive(Clone, Copy, Debug)]
-pub struct SurfaceOptions {
-    /// The radius of the ball.
-    pub radius: Radius,
+pub struct SurfaceOptions<'a> {
+    /// The radius of the ball at a place.
+    pub radius: &'a (dyn Fn(Point) -> f64 + Sync),
+    /// How far a place is from what is to stay as it is.
+    pub pin_distance: &'a (dyn Fn(Point) -> f64 + Sync),
     /// The length of edges where the surface moves.
     pub edge: f64,
     /// How many threads work; the result does not depend on it.
@@ -58,11 +69,16 @@ pub struct ClosedSurface {
     pub faces: Vec<[u32; 3]>,
     /// The face of the input that each of them is; [`NONE`] for those that changed.
     pub parents: Vec<u32>,
-    /// Places where the ball found no rest or the surface would tear.
-    pub conflicts: Vec<Point>,
+    /// What could not be done.
+    pub conflicts: Vec<Conflict>,
+    /// The largest distance of the middle of an edge or a face from the closing, where it moved.
+    pub error: f64,
 }
 
 /// Closes a surface with a ball.
+///
+/// Where the radius varies, every vertex is closed by the ball of its place. Near what is pinned the radius is at most the
+/// distance from it, so that the surface joins smoothly what stays.
 ///
 /// # Errors
 /// Where the faces form no surface.
@@ -70,33 +86,75 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
     let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
     let hierarchy = Hierarchy::new(&input.points, &input.faces);
     let ground = Ground { mesh: &mesh, hierarchy: &hierarchy };
+    let mut conflicts: Vec<Conflict> = Vec::new();
+    let mut stays: Vec<Point> = Vec::new();
+    for attempt in 0..=ATTEMPTS {
+        // Around what could not be done the ball gets smaller, down to nothing.
+        let corners: Vec<[u32; 3]> = (0..stays.len() as u32).map(|k| [k; 3]).collect();
+        let avoided = Hierarchy::new(&stays, &corners);
+        let field = |p: Point| {
+            let r = (options.radius)(p);
+            let pinned = (options.pin_distance)(p);
+            let near = avoided.nearest(p, (1.0 / EASE + CLEARANCE) * r).map_or(f64::INFINITY, |n| n.distance);
+            r.min(EASE * pinned.min(near - CLEARANCE * r)).max(0.0)
+        };
+        let covering = cover(input, &ground, &field, options);
+        let found = conflicts::find(&covering, options.threads);
+        let is_last = attempt == ATTEMPTS || found.faces.is_empty();
+        if !is_last {
+            for f in &found.faces {
+                for v in covering.mesh.face(*f) {
+                    stays.push(covering.point(v));
+                    stays.extend(mesh.points.get(v as usize));
+                }
+            }
+        }
+        conflicts.extend(found.conflicts);
+        if is_last {
+            return Ok(result::result(input, &covering, &found.faces, conflicts, found.error));
+        }
+    }
+    unreachable!("the last attempt returns")
+}
+
+/// The surface moved to where the ball touches.
+fn cover<'a>(
+    input: &TriangleMesh,
+    ground: &'a Ground<'a>,
+    field: &'a (dyn Fn(Point) -> f64 + Sync),
+    options: &SurfaceOptions,
+) -> Covering<'a> {
     let mut covering = Covering {
-        ground: &ground,
-        mesh: mesh.clone(),
+        ground,
+        mesh: ground.mesh.clone(),
         state: vec![State::Kept; input.points.len()],
         touched: vec![false; input.faces.len()],
-        radius: options.radius.get(),
+        parent: (0..input.faces.len() as u32).collect(),
+        part: 1.0,
+        field,
         edge: options.edge,
     };
-    let normals = input.vertex_normals();
-    let mut roll = Roll { normals, threads: options.threads };
-    let r = options.radius.get();
+    let mut roll = Roll { normals: input.vertex_normals(), threads: options.threads };
     // What the whole ball can touch, smaller ones can.
     let mut moving: Vec<u32> = roll.untouched(&covering, (0..input.points.len() as u32).collect());
     let verbose = std::env::var_os("BALL").is_some();
     for (k, part) in LEVELS.iter().enumerate() {
-        covering.radius = part * r;
+        covering.part = *part;
         let t = std::time::Instant::now();
         roll.advance(&mut covering, &mut moving);
-        let lost = covering.state.iter().filter(|s| **s == State::Lost).count();
         let t1 = t.elapsed();
         let last = k + 1 == LEVELS.len();
         covering.remesh(if last { LAST_ROUNDS } else { ROUNDS });
         if verbose {
-            eprintln!("level {part}: moved {} lost {lost} {:?} remesh {:?}", covering.state.iter().filter(|s| **s != State::Kept).count(), t1, t.elapsed() - t1);
+            eprintln!(
+                "level {part}: moved {} {:?} remesh {:?}",
+                covering.state.iter().filter(|s| **s != State::Kept).count(),
+                t1,
+                t.elapsed() - t1
+            );
         }
     }
-    Ok(result(input, &covering))
+    covering
 }
 
 /// What goes on from level to level.
@@ -117,13 +175,12 @@ enum Target {
 impl Roll {
     /// The vertices of `among` that the ball does not touch along their normals.
     fn untouched(&self, covering: &Covering, among: Vec<u32>) -> Vec<u32> {
-        let r = covering.radius;
         let is_untouched = parallel::map(&among, self.threads, |&v| {
-            covering.mesh.has_vertex(v)
-                && covering.ground.hierarchy.is_nearer(
-                    covering.point(v) + self.normals[v as usize] * r,
-                    r * (1.0 - TOUCHING),
-                )
+            let (x, normal) = (covering.point(v), self.normals[v as usize]);
+            let r = covering.radius(x);
+            !covering.mesh.is_boundary(v)
+                && covering.mesh.has_vertex(v)
+                && covering.ground.hierarchy.is_nearer(x + normal * r, r * (1.0 - TOUCHING))
         });
         among.into_iter().zip(is_untouched).filter(|(_, is)| *is).map(|(v, _)| v).collect()
     }
@@ -171,7 +228,8 @@ impl Roll {
 
     /// Where a vertex goes.
     fn target(&self, covering: &Covering, v: u32) -> Target {
-        let (x, r) = (covering.point(v), covering.radius);
+        let x = covering.point(v);
+        let r = covering.radius(x);
         let normal = match covering.rest(v) {
             Some(rest) => rest.normal,
             None if covering.is_kept(v) => self.normals[v as usize],
@@ -181,6 +239,9 @@ impl Roll {
             }
         };
         let is_kept = covering.is_kept(v);
+        if r <= 0.0 || covering.mesh.is_boundary(v) {
+            return Target::Stays;
+        }
         if is_kept && !covering.ground.hierarchy.is_nearer(x + normal * r, r * (1.0 - TOUCHING)) {
             return Target::Stays;
         }
@@ -198,7 +259,7 @@ impl Roll {
         if covering.ground.hierarchy.is_crossed(start, rest.center) {
             return Target::Lost;
         }
-        Target::Goes(rest.point(r), rest)
+        Target::Goes(rest.point(), rest)
     }
 
     /// Cuts long edges of the input beside vertices that are to move; the new vertices.
@@ -255,18 +316,19 @@ impl Roll {
                     .filter_map(|u| covering.rest(u).map(|rest| (covering.point(u).coords, rest.center.coords)))
                     .collect();
                 let count = rests.len() as f64;
-                let mean = |of: fn(&(Vector, Vector)) -> Vector| Point::from(rests.iter().map(of).sum::<Vector>() / count);
+                let mean =
+                    |of: fn(&(Vector, Vector)) -> Vector| Point::from(rests.iter().map(of).sum::<Vector>() / count);
                 let (x, y) = (mean(|r| r.0), mean(|r| r.1));
                 if rests.is_empty() {
                     return None;
                 }
-                let rest = covering.ground.rest(x, y, covering.radius, contact::UNTOUCHED)?;
+                let rest = covering.ground.rest(x, y, covering.radius(x), contact::UNTOUCHED)?;
                 (!covering.ground.hierarchy.is_crossed(x, rest.center)).then_some(rest)
             });
             let mut any = false;
             for (v, rest) in lost.into_iter().zip(found) {
                 if let Some(rest) = rest {
-                    covering.mesh.points[v as usize] = rest.point(covering.radius);
+                    covering.mesh.points[v as usize] = rest.point();
                     covering.state[v as usize] = State::Moved(rest);
                     any = true;
                 }
@@ -276,32 +338,4 @@ impl Roll {
             }
         }
     }
-}
-
-/// What is left of the input, then what is new.
-fn result(input: &TriangleMesh, covering: &Covering) -> ClosedSurface {
-    let mut closed = ClosedSurface::default();
-    let mut number = vec![NONE; covering.mesh.points.len()];
-    for v in 0..covering.mesh.points.len() {
-        if v < input.points.len() || covering.mesh.has_vertex(v as u32) {
-            let is_gone = !covering.mesh.has_vertex(v as u32) && input.faces.iter().any(|_| true);
-            if is_gone {
-                continue;
-            }
-            number[v] = closed.points.len() as u32;
-            closed.points.push(covering.mesh.points[v]);
-            let is_input = v < input.points.len() && covering.is_kept(v as u32);
-            closed.origins.push(if is_input { v as u32 } else { NONE });
-        }
-    }
-    for f in covering.mesh.faces() {
-        closed.faces.push(covering.mesh.face(f).map(|v| number[v as usize]));
-        closed.parents.push(if covering.touched[f as usize] { NONE } else { f });
-    }
-    for (v, state) in covering.state.iter().enumerate() {
-        if *state == State::Lost {
-            closed.conflicts.push(covering.mesh.points[v]);
-        }
-    }
-    closed
 }

@@ -104,8 +104,8 @@ impl Covering<'_> {
             from.contacts = super::contact::UNTOUCHED;
         }
         let x = nalgebra::center(&p, &q);
-        let rest = self.ground.rest(x, from.center, self.radius, from.contacts)?;
-        let found = rest.point(self.radius);
+        let rest = self.ground.rest(x, from.center, self.radius(x), from.contacts)?;
+        let found = rest.point();
         let length = (q - p).norm();
         let parts = [(found - p).norm() / length, (found - q).norm() / length];
         parts.iter().all(|part| (HALVES[0]..HALVES[1]).contains(part)).then_some((found, rest))
@@ -147,7 +147,7 @@ impl Covering<'_> {
             return false;
         }
         // What is flat stays flat: the two faces turn no more than the ball does over three edges.
-        let flat = (3.0 * self.edge / self.radius).min(1.0).cos();
+        let flat = (3.0 * self.edge / self.radius(self.point(a))).min(1.0).cos();
         let bend = |faces: [[u32; 3]; 2]| {
             let [m, n] = faces.map(|f| area_vector(at(f)));
             m.dot(&n) / (m.norm() * n.norm())

@@ -1,0 +1,101 @@
+//! What is not the closing: tears, folds, and what dips into the input.
+
+use super::covering::{Covering, State, area_vector};
+use super::parallel;
+use crate::mesh::Point;
+
+/// The middle of an edge or a face may be this far from the closing, in edge lengths, where the surface is whole.
+const TORN: f64 = 0.5;
+
+/// A face whose normal is farther from that of a ball at its corner than this cosine tells is folded.
+const FOLDED: f64 = -0.2;
+
+/// Faces may dip into the input by so many edge lengths.
+const DIP: f64 = 0.05;
+
+/// What is wrong in a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Trouble {
+    /// Neighbours go to different sides of what the ball cannot reach: the surface would tear.
+    Tear,
+    /// The surface would lie on itself.
+    Fold,
+    /// The ball finds no rest.
+    Lost,
+    /// The surface would cut into the input.
+    Dip,
+}
+
+/// A place where the closing could not be had directly. What is around it was left as it was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conflict {
+    /// Where.
+    pub place: Point,
+    /// What.
+    pub trouble: Trouble,
+}
+
+/// Faces that are not the closing.
+pub(super) struct Found {
+    pub faces: Vec<u32>,
+    pub conflicts: Vec<Conflict>,
+    /// The largest distance from the closing of the middles of the others.
+    pub error: f64,
+}
+
+/// Looks at all faces that moved.
+pub(super) fn find(covering: &Covering, threads: usize) -> Found {
+    let active = covering.active_faces();
+    let looked = parallel::map(&active, threads, |&f| look(covering, f));
+    let mut found = Found { faces: Vec::new(), conflicts: Vec::new(), error: 0.0 };
+    for (f, seen) in active.into_iter().zip(looked) {
+        match seen {
+            Ok(error) => found.error = found.error.max(error),
+            Err(trouble) => {
+                let [a, b, c] = covering.mesh.triangle(f);
+                let place = Point::from((a.coords + b.coords + c.coords) / 3.0);
+                found.faces.push(f);
+                found.conflicts.push(Conflict { place, trouble });
+            }
+        }
+    }
+    found
+}
+
+/// How far the middle of a face and those of its long edges are from the closing.
+fn look(covering: &Covering, f: u32) -> Result<f64, Trouble> {
+    let corners = covering.mesh.face(f);
+    if corners.iter().any(|&v| covering.state[v as usize] == State::Lost) {
+        return Err(Trouble::Lost);
+    }
+    let triangle = covering.mesh.triangle(f);
+    if covering.agreement(corners, &area_vector(triangle)) < FOLDED {
+        return Err(Trouble::Fold);
+    }
+    let [a, b, c] = triangle;
+    let center = Point::from((a.coords + b.coords + c.coords) / 3.0);
+    if covering.ground.depth(center, covering.edge) > DIP * covering.edge {
+        return Err(Trouble::Dip);
+    }
+    let Some(rest) = corners.iter().find_map(|&v| covering.rest(v)) else { return Ok(0.0) };
+    let long = covering
+        .mesh
+        .half_edges(f)
+        .into_iter()
+        .filter(|&h| covering.mesh.length(h) > super::remesh::LONGEST * covering.edge);
+    let middles = long
+        .map(|h| nalgebra::center(&covering.point(covering.mesh.origin(h)), &covering.point(covering.mesh.target(h))));
+    let mut largest: f64 = 0.0;
+    for p in std::iter::once(center).chain(middles) {
+        let r = covering.radius(p);
+        // A face may have its middle on the input, where it stays.
+        let off = covering.ground.rest(p, rest.center, r, rest.contacts).map(|found| (found.point() - p).norm());
+        match off {
+            Some(off) if off <= TORN * covering.edge => largest = largest.max(off),
+            _ if r > 0.0 => return Err(Trouble::Tear),
+            _ => {}
+        }
+    }
+    Ok(largest)
+}

@@ -1,0 +1,82 @@
+//! What comes out: the input as far as it is left, then what is new.
+
+use super::ClosedSurface;
+use super::conflicts::Conflict;
+use super::covering::{Covering, State};
+use crate::mesh::{NONE, TriangleMesh};
+
+/// The surface, with the regions that hold one of the `bad` faces as they were in the input.
+pub(super) fn result(
+    input: &TriangleMesh,
+    covering: &Covering,
+    bad: &[u32],
+    conflicts: Vec<Conflict>,
+    error: f64,
+) -> ClosedSurface {
+    let regions = regions(covering, input.faces.len());
+    let mut is_bad = vec![false; input.faces.len()];
+    for &f in bad {
+        is_bad[regions[covering.parent[f as usize] as usize] as usize] = true;
+    }
+    let reverted = |f: u32| is_bad[regions[covering.parent[f as usize] as usize] as usize];
+    let (mut faces, mut parents) = (Vec::new(), Vec::new());
+    for f in 0..covering.mesh.face_count() as u32 {
+        let is_input = (f as usize) < input.faces.len();
+        if is_input && (reverted(f) || !covering.touched[f as usize]) {
+            faces.push(input.faces[f as usize]);
+            parents.push(f);
+        } else if covering.mesh.has_face(f) && !reverted(f) {
+            faces.push(covering.mesh.face(f));
+            parents.push(NONE);
+        }
+    }
+    // Vertices of the input that nothing but reverted faces use are where they were.
+    let mut is_used = vec![false; covering.mesh.points.len()];
+    let mut is_original = vec![false; covering.mesh.points.len()];
+    for (face, parent) in faces.iter().zip(&parents) {
+        for &v in face {
+            is_used[v as usize] = true;
+            is_original[v as usize] |= *parent != NONE || covering.state[v as usize] == State::Kept;
+        }
+    }
+    let mut closed = ClosedSurface { parents, conflicts, error, ..ClosedSurface::default() };
+    let mut number = vec![NONE; is_used.len()];
+    for v in 0..is_used.len() {
+        let is_input = v < input.points.len();
+        // What no face ever used stays, too.
+        if !(is_used[v] || is_input && !covering.has_been_used(v as u32)) {
+            continue;
+        }
+        number[v] = closed.points.len() as u32;
+        let stays = is_input && (is_original[v] || !is_used[v]);
+        closed.points.push(if stays { input.points[v] } else { covering.mesh.points[v] });
+        closed.origins.push(if stays { v as u32 } else { NONE });
+    }
+    closed.faces = faces.into_iter().map(|f| f.map(|v| number[v as usize])).collect();
+    closed
+}
+
+/// The region of each face of the input: touched faces that are neighbours are of one region, any other face is one of its own.
+fn regions(covering: &Covering, count: usize) -> Vec<u32> {
+    let mesh = covering.ground.mesh;
+    let mut region = vec![NONE; count];
+    for start in 0..count as u32 {
+        if region[start as usize] != NONE {
+            continue;
+        }
+        region[start as usize] = start;
+        let mut open = vec![start];
+        while let Some(f) = open.pop() {
+            if !covering.touched[f as usize] {
+                continue;
+            }
+            for g in mesh.half_edges(f).into_iter().filter_map(|h| mesh.twin(h)).map(|t| mesh.face_of(t)) {
+                if region[g as usize] == NONE && covering.touched[g as usize] {
+                    region[g as usize] = start;
+                    open.push(g);
+                }
+            }
+        }
+    }
+    region
+}
