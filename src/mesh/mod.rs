@@ -8,6 +8,7 @@ mod hierarchy;
 mod polygon_mesh;
 mod triangle;
 mod triangle_mesh;
+mod triangulate;
 
 pub use half_edge::{HalfEdgeMesh, NONE, NotManifold};
 pub use hierarchy::{Hierarchy, Nearest};
