@@ -1,0 +1,232 @@
+//! Faces that pass through each other.
+//!
+//! Two triangles cross where each has corners on both sides of the other's plane and they have a piece of the line common to
+//! both planes in common (Möller, 1997), or where they lie in one plane and overlap. Surfaces that only touch, and neighbours
+//! with a corner or an edge in common, do not cross unless they do so elsewhere, or are folded onto each other. Corners at
+//! bit-identical places count as one.
+
+use super::{Hierarchy, Point, TriangleMesh, Vector};
+
+/// Nearer to a plane than this, over the longest edge of both triangles, is in the plane; a thousand times what rounding does to
+/// well shaped ones, and what makes the line common to two planes known to seven digits.
+const IN_PLANE: f64 = 1e-9;
+
+/// What is shared must be longer than this over the longest edge of the smaller triangle: less is a touch.
+const OVERLAP: f64 = 1e-6;
+
+/// All pairs of faces that pass through each other, each once with the lower number first, in order.
+///
+/// A surface that crosses another one exactly along edges that lie in the planes of its faces is not seen: each of these
+/// faces only touches. Triangles without area cross nothing.
+pub fn self_intersections(mesh: &TriangleMesh) -> Vec<(u32, u32)> {
+    let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
+    self_intersections_of(mesh, &hierarchy, 0..mesh.faces.len() as u32)
+}
+
+/// The pairs of faces that pass through each other of which at least one is among `faces`; `hierarchy` is that of all faces of
+/// the mesh that count.
+pub fn self_intersections_of(
+    mesh: &TriangleMesh,
+    hierarchy: &Hierarchy,
+    faces: impl IntoIterator<Item = u32>,
+) -> Vec<(u32, u32)> {
+    at_most(mesh, hierarchy, faces, usize::MAX)
+}
+
+/// The same, but no more than so many pairs for all faces together, counting those that are met from both sides twice.
+pub(super) fn at_most(
+    mesh: &TriangleMesh,
+    hierarchy: &Hierarchy,
+    faces: impl IntoIterator<Item = u32>,
+    most: usize,
+) -> Vec<(u32, u32)> {
+    let mut pairs = vec![];
+    for f in faces {
+        let [a, b, c] = mesh.triangle(f as usize);
+        let is_full = hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |g| {
+            if g != f && cross([a, b, c], mesh.triangle(g as usize)) {
+                pairs.push((f.min(g), f.max(g)));
+            }
+            pairs.len() >= most
+        });
+        if is_full {
+            break;
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// A triangle with its plane.
+struct Flat {
+    corners: [Point; 3],
+    /// Of unit length.
+    normal: Vector,
+    longest: f64,
+}
+
+impl Flat {
+    /// None where the triangle has no area.
+    fn new(corners: [Point; 3]) -> Option<Flat> {
+        let [a, b, c] = corners;
+        let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared()).sqrt();
+        let normal = (b - a).cross(&(c - a));
+        let length = normal.norm();
+        (length > IN_PLANE * longest * longest).then(|| Flat { corners, normal: normal / length, longest })
+    }
+
+    /// How far the corners of another triangle are from the plane; 0 within the tolerance.
+    fn distances(&self, other: &Flat) -> [f64; 3] {
+        let near = IN_PLANE * self.longest.max(other.longest);
+        // From the corner that is nearest: what both share is exactly in the plane.
+        other.corners.map(|p| {
+            let distance = self.normal.dot(&(p - self.corners[0]));
+            if distance.abs() <= near || self.corners.contains(&p) { 0.0 } else { distance }
+        })
+    }
+
+    /// The piece of a line that lies in the triangle, whose corners are so far from a plane through the line.
+    fn piece(&self, distances: [f64; 3], origin: Point, along: Vector) -> [f64; 2] {
+        let mut piece = [f64::INFINITY, f64::NEG_INFINITY];
+        for k in 0..3 {
+            let (d, e) = (distances[k], distances[(k + 1) % 3]);
+            let (p, q) = (self.corners[k], self.corners[(k + 1) % 3]);
+            let at = match d {
+                0.0 => p,
+                _ if d * e < 0.0 => p + (q - p) * (d / (d - e)),
+                _ => continue,
+            };
+            let t = along.dot(&(at - origin));
+            piece = [piece[0].min(t), piece[1].max(t)];
+        }
+        piece
+    }
+}
+
+/// Whether two triangles pass through each other, or overlap in one plane.
+pub fn cross(one: [Point; 3], other: [Point; 3]) -> bool {
+    let shared = one.iter().filter(|p| other.contains(p)).count();
+    if shared == 3 {
+        return false;
+    }
+    let (Some(one), Some(other)) = (Flat::new(one), Flat::new(other)) else { return false };
+    let of_other = one.distances(&other);
+    if of_other.iter().all(|d| *d == 0.0) {
+        return overlap(&one, &other);
+    }
+    let is_beside = |d: [f64; 3]| d.iter().all(|d| *d >= 0.0) || d.iter().all(|d| *d <= 0.0);
+    let of_one = other.distances(&one);
+    if of_one.iter().all(|d| *d == 0.0) {
+        return overlap(&other, &one);
+    }
+    if shared == 2 || is_beside(of_other) || is_beside(of_one) {
+        return false;
+    }
+    let Some(along) = one.normal.cross(&other.normal).try_normalize(0.0) else { return false };
+    let origin = one.corners[0];
+    let [from, to] = one.piece(of_one, origin, along);
+    let [low, high] = other.piece(of_other, origin, along);
+    to.min(high) - from.max(low) > OVERLAP * one.longest.min(other.longest)
+}
+
+/// Whether two triangles in the plane of the first one have some area in common: no edge parts them.
+fn overlap(one: &Flat, other: &Flat) -> bool {
+    let least = OVERLAP * one.longest.min(other.longest);
+    let parts = |triangle: &Flat, from: &Flat| {
+        (0..3).any(|k| {
+            let (p, q) = (triangle.corners[k], triangle.corners[(k + 1) % 3]);
+            let inward = one.normal.cross(&(q - p)).normalize();
+            // The other triangle may run the other way round in this plane.
+            let own = inward.dot(&(triangle.corners[(k + 2) % 3] - p));
+            let inward = inward * own.signum();
+            from.corners.iter().all(|c| inward.dot(&(c - p)) <= least)
+        })
+    };
+    !parts(one, other) && !parts(other, one)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Both triangles, each from each corner and reversed, moved and turned.
+    fn assert_cross(one: [[f64; 3]; 3], other: [[f64; 3]; 3], expected: bool) {
+        let turned = |t: [[f64; 3]; 3], step: usize| {
+            let rotation = nalgebra::Rotation3::from_euler_angles(0.3, 1.1, -0.7);
+            t.map(|p| match step {
+                0 => Point::from(p),
+                1 => rotation * Point::from(p),
+                _ => rotation * Point::from(p) * 1e-3 + Vector::new(5.0, -7.0, 11.0),
+            })
+        };
+        for step in 0..3 {
+            let (one, other) = (turned(one, step), turned(other, step));
+            for k in 0..6 {
+                let order = if k < 3 { [k, (k + 1) % 3, (k + 2) % 3] } else { [k % 3, (k + 2) % 3, (k + 1) % 3] };
+                assert_eq!(cross(order.map(|i| one[i]), other), expected, "{one:?} {other:?}");
+                assert_eq!(cross(other, order.map(|i| one[i])), expected, "{other:?} {one:?}");
+            }
+        }
+    }
+
+    const FLOOR: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+
+    #[test]
+    fn triangles_cross_where_they_pass_through_each_other() {
+        assert_cross(FLOOR, [[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [1.0, 9.0, 1.0]], true);
+        // A spike, a blade across all of it, and what passes beside.
+        assert_cross(FLOOR, [[1.0, 1.0, -1.0], [1.2, 1.0, 3.0], [1.0, 1.2, 3.0]], true);
+        assert_cross(FLOOR, [[-9.0, 1.0, -1.0], [9.0, 1.0, -1.0], [0.0, 1.0, 9.0]], true);
+        assert_cross(FLOOR, [[3.0, 3.0, -1.0], [3.0, 3.0, 1.0], [9.0, 9.0, 1.0]], false);
+        assert_cross(FLOOR, [[1.0, 1.0, 0.5], [1.0, 1.0, 1.0], [1.0, 9.0, 1.0]], false);
+    }
+
+    #[test]
+    fn triangles_that_touch_do_not_cross() {
+        // With a corner, an edge, a face, a corner at the border.
+        assert_cross(FLOOR, [[1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [1.0, 2.0, 1.0]], false);
+        assert_cross(FLOOR, [[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [1.0, 2.0, 1.0]], false);
+        assert_cross(FLOOR, [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [4.0, 4.0, 0.0]], false);
+        assert_cross(FLOOR, [[2.0, 0.0, -1.0], [2.0, 0.0, 1.0], [2.0, -3.0, 0.5]], false);
+    }
+
+    #[test]
+    fn neighbours_cross_only_beyond_what_they_share() {
+        // An edge in common: at any angle but zero.
+        assert_cross(FLOOR, [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.01]], false);
+        assert_cross(FLOOR, [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [1.0, 1.0, 0.0]], true);
+        assert_cross(FLOOR, [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [1.0, -1.0, 0.0]], false);
+        // A corner in common.
+        assert_cross(FLOOR, [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, -1.0]], true);
+        assert_cross(FLOOR, [[0.0, 0.0, 0.0], [-1.0, -1.0, 1.0], [-1.0, -1.0, -1.0]], false);
+        assert_cross(FLOOR, [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [2.0, 1.0, 0.0]], true);
+        assert_cross(FLOOR, [[0.0, 0.0, 0.0], [-1.0, 2.0, 0.0], [-2.0, 1.0, 0.0]], false);
+        assert_cross(FLOOR, FLOOR, false);
+        // In one plane, without a corner in common.
+        assert_cross(FLOOR, [[1.0, 1.0, 0.0], [9.0, 1.0, 0.0], [9.0, 2.0, 0.0]], true);
+        assert_cross(FLOOR, [[5.0, 0.0, 0.0], [9.0, 1.0, 0.0], [9.0, 2.0, 0.0]], false);
+    }
+
+    #[test]
+    fn all_pairs_or_those_of_some_faces() {
+        // A floor of two triangles, with a spike of three through one of them.
+        let points = [
+            [0.0, 0.0, 0.0],
+            [4.0, 0.0, 0.0],
+            [4.0, 4.0, 0.0],
+            [0.0, 4.0, 0.0],
+            [3.0, 1.0, -1.0],
+            [3.1, 1.0, 1.0],
+            [3.0, 1.1, 1.0],
+            [2.9, 0.9, 1.0],
+        ];
+        let faces = vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7], [4, 7, 5]];
+        let mesh = TriangleMesh::new(points.map(Point::from).to_vec(), faces);
+        assert_eq!(self_intersections(&mesh), [(0, 2), (0, 3), (0, 4)]);
+        let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
+        assert_eq!(self_intersections_of(&mesh, &hierarchy, [3, 1]), [(0, 3)]);
+        assert_eq!(self_intersections_of(&mesh, &hierarchy, [0, 2]), [(0, 2), (0, 3), (0, 4)]);
+        assert_eq!(at_most(&mesh, &hierarchy, [0, 2], 1).len(), 1);
+    }
+}
