@@ -30,6 +30,7 @@ pub(super) struct Scene {
     corners: Vec<[Vector; 3]>,
     /// Directions of the picture, of each corner.
     normals: Vec<[Vector; 3]>,
+    lamps: Lamps,
     width: usize,
     height: usize,
 }
@@ -46,6 +47,7 @@ impl Scene {
         Scene {
             corners: mesh.faces.iter().map(|f| f.map(|v| points[v as usize])).collect(),
             normals: normals.iter().map(|n| n.map(|n| camera.view.direction(&n))).collect(),
+            lamps: Lamps::new(),
             width: camera.width as usize * SAMPLES,
             height: camera.height as usize * SAMPLES,
         }
@@ -151,11 +153,10 @@ impl Scene {
         let normal = if is_back { -normal } else { normal };
         let own = if is_back { BACK.map(f64::from) } else { colour(face, w) };
         let diffuse = AMBIENT
-            + KEY * normal.dot(&towards(KEY_FROM)).max(0.0)
-            + FILL * normal.dot(&towards(FILL_FROM)).max(0.0)
+            + KEY * normal.dot(&self.lamps.key).max(0.0)
+            + FILL * normal.dot(&self.lamps.fill).max(0.0)
             + SKY * (0.5 + 0.5 * normal.y);
-        let half = (towards(KEY_FROM) + Vector::z()).normalize();
-        let gloss = 255.0 * GLOSS * normal.dot(&half).max(0.0).powi(GLOSS_POWER);
+        let gloss = 255.0 * GLOSS * normal.dot(&self.lamps.half).max(0.0).powi(GLOSS_POWER);
         own.map(|x| (x * diffuse + gloss).min(255.0))
     }
 }
@@ -164,18 +165,29 @@ impl Scene {
 /// face has about its own colour.
 const KEY_FROM: [f64; 3] = [-0.45, 0.62, 0.64];
 const FILL_FROM: [f64; 3] = [0.85, -0.1, 0.5];
-const KEY: f64 = 0.58;
+const KEY: f64 = 0.53;
 const FILL: f64 = 0.17;
 const SKY: f64 = 0.14;
-const AMBIENT: f64 = 0.27;
+const AMBIENT: f64 = 0.34;
 /// The shine of a matt varnish.
 const GLOSS: f64 = 0.10;
 const GLOSS_POWER: i32 = 24;
 /// The inside of a surface, where it is open or turned inside out.
 const BACK: [u8; 3] = [120, 108, 92];
 
-fn towards(direction: [f64; 3]) -> Vector {
-    Vector::from(direction).normalize()
+/// Unit vectors towards the lamps.
+struct Lamps {
+    key: Vector,
+    fill: Vector,
+    /// Half way between the lamp and the eye.
+    half: Vector,
+}
+
+impl Lamps {
+    fn new() -> Lamps {
+        let [key, fill] = [KEY_FROM, FILL_FROM].map(|d| Vector::from(d).normalize());
+        Lamps { key, fill, half: (key + Vector::z()).normalize() }
+    }
 }
 
 /// Twice the area of a triangle in the picture, with its sign.
