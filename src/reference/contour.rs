@@ -31,6 +31,9 @@ const BEYOND: f64 = 0.3;
 /// The offset of the grid, in voxels: so that planes of models at round numbers are no planes of the grid.
 const SHIFT: [f64; 3] = [0.37, 0.41, 0.43];
 
+/// So many cells tell how many there will be, but for a factor of four.
+const TELLING: usize = 1 << 14;
+
 /// Slack of the test for the level in a cell, for rounding.
 const SLACK: f64 = 1.0 + 1e-6;
 
@@ -133,10 +136,14 @@ fn leaves(field: &(impl Fn(Point) -> Sample + Sync), grid: &Grid, high: Point) -
             field(grid.origin + Vector::from(middle) * voxel).value.abs() <= reach
         });
         cells = candidates.into_iter().zip(is_met).filter(|(_, met)| *met).map(|(c, _)| c).collect();
-        if cells.len() > MOST_CELLS {
-            // A surface passes through four times as many cells of half the size.
-            let factor = (cells.len() as f64 / MOST_CELLS as f64).sqrt() * f64::from(size);
-            return Err(VolumeError::TooFine { voxel, suggestion: voxel * factor * 1.1 });
+        // A surface passes through four times as many cells of half the size, once they are small against it.
+        let expected = cells.len() as f64 * f64::from(size).powi(2);
+        let is_hopeless = cells.len() > TELLING && expected > 4.0 * MOST_CELLS as f64;
+        if is_hopeless || cells.len() > MOST_CELLS {
+            return Err(VolumeError::TooFine {
+                voxel,
+                suggestion: voxel * (expected / MOST_CELLS as f64).sqrt() * 1.1,
+            });
         }
     }
     let mut keys: Vec<u64> = cells.into_iter().map(key).collect();

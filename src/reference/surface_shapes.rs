@@ -96,3 +96,34 @@ pub(crate) fn both(a: &TriangleMesh, b: &TriangleMesh) -> TriangleMesh {
     let faces = a.faces.iter().copied().chain(b.faces.iter().map(|f| f.map(|v| v + shift))).collect();
     TriangleMesh::new(points, faces)
 }
+
+/// The union of two spheres of radius 1 about (±a, 0, 0), of a profile of `n` chords a sphere turned in `2 n` steps.
+pub(crate) fn overlapping_spheres(a: f64, n: u32) -> TriangleMesh {
+    // From the left pole to the plane where they meet.
+    let last = std::f64::consts::PI - a.acos();
+    let half: Vec<[f64; 2]> =
+        (0..=n).map(|k| last * f64::from(k) / f64::from(n)).map(|t| [-a - t.cos(), t.sin()]).collect();
+    let mirrored = half[..n as usize].iter().rev().map(|p| [-p[0], p[1]]);
+    let profile: Vec<[f64; 2]> = half.iter().copied().chain(mirrored).collect();
+    let turns = 2 * n;
+    let mut mesh = TriangleMesh::default();
+    let rings = profile.len() as u32 - 2;
+    for [x, rho] in &profile[1..=rings as usize] {
+        for i in 0..turns {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(turns)).sin_cos();
+            mesh.points.push(Point::new(*x, rho * cos, rho * sin));
+        }
+    }
+    let (left, right) = (mesh.points.len() as u32, mesh.points.len() as u32 + 1);
+    mesh.points.extend([Point::new(profile[0][0], 0.0, 0.0), Point::new(-profile[0][0], 0.0, 0.0)]);
+    for i in 0..turns {
+        let j = (i + 1) % turns;
+        for ring in 1..rings {
+            let (a, b) = ((ring - 1) * turns, ring * turns);
+            mesh.faces.extend([[a + i, b + i, b + j], [a + i, b + j, a + j]]);
+        }
+        let end = (rings - 1) * turns;
+        mesh.faces.extend([[left, i, j], [right, end + j, end + i]]);
+    }
+    mesh.reversed()
+}
