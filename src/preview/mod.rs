@@ -1,4 +1,5 @@
-//! Pictures of programs, as they were read back, of outlines and fonts, and of the states of a flow: as a sheet or in motion.
+//! Pictures of programs, as they were read back, of outlines and fonts, of surfaces, and of the states of a flow: as a sheet or
+//! in motion.
 //!
 //! The same input gives the same bytes.
 
@@ -8,6 +9,9 @@ mod contact;
 mod frame;
 mod indexed;
 mod lettering;
+mod mesh;
+mod mesh_raster;
+mod mesh_view;
 mod outline;
 mod palette;
 mod program;
@@ -18,6 +22,8 @@ mod state;
 pub use animation::{Picture, animation};
 pub use contact::{Cell, contact_sheet};
 pub use frame::{Frame, time_captions};
+pub use mesh::{MeshStyle, mesh, meshes};
+pub use mesh_raster::Shading;
 pub use outline::outline;
 pub use program::{Scene, program};
 pub use sheet::DEFAULT_SIZE;

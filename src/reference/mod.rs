@@ -6,14 +6,25 @@
 //! Where even certified references disagree with a result, [`witness`] decides point by point from the definition of the
 //! closing alone.
 //!
+//! Surfaces in space are closed on a grid of exact distances ([`volumetric_close`]).
+//!
 //! All of this is the *morphological* closing: components that come together merge, holes fill, narrow inlets close.
 
 pub mod arcs;
 mod certificate;
+mod contour;
 mod curve;
 mod frame;
 pub mod overlay;
+mod solid;
+#[cfg(test)]
+pub(crate) mod surface_shapes;
+pub(crate) mod threads;
+mod volume;
 pub mod witness;
+
+pub use solid::{Signed, Solid};
+pub use volume::{LONGEST_SIDE, MOST_CELLS, VolumeError, volumetric_close};
 
 use crate::plane::Region;
 use crate::units::Radius;

@@ -1,0 +1,261 @@
+//! A closed or opened surface against the definition of closing and opening.
+
+use std::collections::{HashMap, HashSet};
+
+use super::surface_contact::{Centres, Contact, RESOLUTION};
+use super::surface_report::{
+    ContactError, CurvatureBound, SelfIntersections, SurfaceCheckError, SurfaceContainment, SurfaceKept, SurfacePlace,
+    SurfaceReport, SurfaceTopologies, TriangleQuality,
+};
+use super::surface_samples::{SurfaceSample, samples};
+use super::surface_shape::{angles, is_used, minimum_curvatures, self_intersections, topology};
+use crate::mesh::{Point, TriangleMesh};
+use crate::reference::{Operation, Solid, threads};
+
+/// A vertex of the output has moved if it is farther than this from the input, in diagonals of the input: above all rounding,
+/// below all that is meant.
+pub const MOVED: f64 = 1e-6;
+
+/// A vertex need not move if a ball that touches it reaches this far into the input at most, in radii.
+const STILL: f64 = 1e-6;
+
+/// Pairs of crossing faces that a report names.
+const NAMED_PAIRS: usize = 20;
+
+/// Compares a closing or opening of `input` by a ball of `radius` with what it should be. An opening is the closing of the
+/// complement: both surfaces are turned inside out, and all is measured alike. `edge_length` is the one that the lengths
+/// in the report refer to.
+///
+/// The contact error of a place x is dist(x, D) - r with D the centres of all balls of radius r that are outside of the solid: negative
+/// where x is outside of the true closing by so much. It is computed from the triangles of the input alone, and certified to a
+/// thousandth of the radius where `certain_share` counts it.
+///
+/// # Errors
+/// See [`SurfaceCheckError`].
+pub fn surface(
+    input: &TriangleMesh,
+    output: &TriangleMesh,
+    radius: f64,
+    operation: Operation,
+    edge_length: f64,
+) -> Result<SurfaceReport, SurfaceCheckError> {
+    let is_length = |x: f64| x.is_finite() && x > 0.0;
+    if !is_length(radius) || !is_length(edge_length) {
+        return Err(SurfaceCheckError::Length { radius, edge_length });
+    }
+    validate(input, "input")?;
+    validate(output, "output")?;
+    let turned = match operation {
+        Operation::Close => None,
+        Operation::Open => Some([input.reversed(), output.reversed()]),
+    };
+    let [input, output] = turned.as_ref().map_or([input, output], |[a, b]| [a, b]);
+    let (solid, result) = (Solid::new(input), Solid::new(output));
+    let limit = MOVED * input.diagonal();
+    let has_moved = threads::map(&output.points, |p| !solid.hierarchy().is_nearer(*p, limit));
+    let moved_face = |f: usize| output.faces[f].iter().any(|&v| has_moved[v as usize]);
+    let normals = output.vertex_normals();
+    let moved = samples(output, &normals, moved_face);
+    let kept = samples(output, &normals, |f| !moved_face(f));
+    let centres = Centres::new(input, &solid, radius);
+    let output_pairs = self_intersections(output);
+    Ok(SurfaceReport {
+        operation,
+        radius_units: radius,
+        edge_length_units: edge_length,
+        contact: contact_error(&centres, &moved, &kept, edge_length, radius),
+        containment: containment(input, &solid, &moved, &result, edge_length),
+        kept: kept_part(input, output, &centres, radius),
+        self_intersections: SelfIntersections {
+            input_pairs: self_intersections(input).len(),
+            output_pairs: output_pairs.len(),
+            first_output_pairs: output_pairs.into_iter().take(NAMED_PAIRS).collect(),
+        },
+        quality: quality(output, moved_face, edge_length),
+        curvature: curvature(output, &has_moved, radius),
+        topology: SurfaceTopologies { input: topology(input), output: topology(output) },
+    })
+}
+
+fn validate(mesh: &TriangleMesh, name: &'static str) -> Result<(), SurfaceCheckError> {
+    if mesh.faces.is_empty() {
+        return Err(SurfaceCheckError::Empty { mesh: name });
+    }
+    if let Some(vertex) = mesh.points.iter().position(|p| !p.coords.iter().all(|x| x.is_finite())) {
+        return Err(SurfaceCheckError::NotFinite { mesh: name, vertex });
+    }
+    let exists = |f: &[u32; 3]| f.iter().all(|&v| (v as usize) < mesh.points.len());
+    match mesh.faces.iter().position(|f| !exists(f)) {
+        Some(face) => Err(SurfaceCheckError::Face { mesh: name, face }),
+        None => Ok(()),
+    }
+}
+
+/// A maximum and where it is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Largest {
+    value: f64,
+    place: Option<SurfacePlace>,
+}
+
+impl Largest {
+    fn meet(&mut self, value: f64, p: Point) {
+        if value > self.value {
+            *self = Largest { value, place: Some([p.x, p.y, p.z]) };
+        }
+    }
+
+    fn of(values: impl Iterator<Item = (f64, Point)>) -> Largest {
+        let mut largest = Largest::default();
+        values.for_each(|(value, p)| largest.meet(value, p));
+        largest
+    }
+}
+
+/// A part of a whole; `of_none` where there is no whole.
+fn share(part: f64, whole: f64, of_none: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { of_none }
+}
+
+fn contact_error(
+    centres: &Centres,
+    moved: &[SurfaceSample],
+    kept: &[SurfaceSample],
+    h: f64,
+    radius: f64,
+) -> ContactError {
+    let errors: Vec<Contact> = threads::map(moved, |s| centres.contact(s.point, &s.outward));
+    let still: Vec<Contact> = threads::map(kept, |s| centres.contact_on_surface(s.point, &s.outward));
+    let pairs = || moved.iter().zip(&errors);
+    let area: f64 = moved.iter().map(|s| s.area).sum();
+    let rest: f64 = kept.iter().map(|s| s.area).sum();
+    let integral = |f: &dyn Fn(f64) -> f64| pairs().map(|(s, e)| s.area * f(e.depth)).sum::<f64>();
+    let too_fat = Largest::of(pairs().map(|(s, e)| (-e.depth, s.point)));
+    let unfilled = Largest::of(pairs().map(|(s, e)| (e.depth, s.point)));
+    let not_moved = Largest::of(kept.iter().zip(&still).map(|(s, e)| (e.depth, s.point)));
+    let certain = errors.iter().filter(|e| e.uncertainty <= 1.01 * RESOLUTION * radius).count();
+    ContactError {
+        mean_over_h: share(integral(&f64::abs), area, 0.0) / h,
+        bias_over_h: share(integral(&|e| -e), area, 0.0) / h,
+        largest_over_h: too_fat.value.max(unfilled.value) / h,
+        too_fat_over_h: too_fat.value / h,
+        too_fat_place: too_fat.place,
+        unfilled_over_h: unfilled.value / h,
+        unfilled_place: unfilled.place,
+        unfilled_where_kept_over_h: not_moved.value / h,
+        unfilled_where_kept_place: not_moved.place,
+        share_beyond_half_h: share(integral(&|e| f64::from(u8::from(e.abs() > 0.5 * h))), area, 0.0),
+        moved_area_share: share(area, area + rest, 0.0),
+        moved_samples: moved.len(),
+        kept_samples: kept.len(),
+        uncertainty_over_h: errors.iter().map(|e| e.uncertainty).fold(0.0, f64::max) / h,
+        certain_share: share(certain as f64, errors.len() as f64, 1.0),
+    }
+}
+
+fn containment(
+    input: &TriangleMesh,
+    solid: &Solid,
+    moved: &[SurfaceSample],
+    result: &Solid,
+    h: f64,
+) -> SurfaceContainment {
+    let points: Vec<Point> = moved.iter().map(|s| s.point).collect();
+    let inside = threads::map(&points, |p| -solid.distance(*p));
+    let output = Largest::of(inside.into_iter().zip(points));
+    let points: Vec<Point> = samples(input, &input.vertex_normals(), |_| true).iter().map(|s| s.point).collect();
+    let outside = threads::map(&points, |p| result.distance(*p));
+    let input = Largest::of(outside.into_iter().zip(points));
+    SurfaceContainment {
+        output_violation_units: output.value,
+        output_violation_over_h: output.value / h,
+        output_place: output.place,
+        input_violation_units: input.value,
+        input_violation_over_h: input.value / h,
+        input_place: input.place,
+    }
+}
+
+/// The bits of a point; minus zero is zero.
+fn bits(p: &Point) -> [u64; 3] {
+    [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits())
+}
+
+fn kept_part(input: &TriangleMesh, output: &TriangleMesh, centres: &Centres, radius: f64) -> SurfaceKept {
+    // Places get numbers, and faces are compared by these, whichever corner comes first.
+    let mut numbers: HashMap<[u64; 3], u32> = HashMap::new();
+    let mut number = |p: &Point| {
+        let next = numbers.len() as u32;
+        *numbers.entry(bits(p)).or_insert(next)
+    };
+    let before: Vec<u32> = input.points.iter().map(&mut number).collect();
+    let after: Vec<u32> = output.points.iter().map(&mut number).collect();
+    let turned = |[a, b, c]: [u32; 3]| [[a, b, c], [b, c, a], [c, a, b]].into_iter().min().unwrap_or([a, b, c]);
+    let faces: HashSet<[u32; 3]> = output.faces.iter().map(|f| turned(f.map(|v| after[v as usize]))).collect();
+    let vertices: HashSet<u32> = output.faces.as_flattened().iter().map(|&v| after[v as usize]).collect();
+    let used: Vec<u32> = is_used(input).into_iter().zip(0u32..).filter(|(used, _)| *used).map(|(_, v)| v).collect();
+    let is_found = |v: &u32| vertices.contains(&before[*v as usize]);
+    let normals = input.vertex_normals();
+    let depths =
+        threads::map(&used, |&v| centres.contact_on_surface(input.points[v as usize], &[normals[v as usize]]).depth);
+    let still: Vec<u32> = used.iter().zip(&depths).filter(|(_, d)| **d <= STILL * radius).map(|(v, _)| *v).collect();
+    let vertices_found = used.iter().filter(|v| is_found(v)).count();
+    let still_vertices_found = still.iter().filter(|v| is_found(v)).count();
+    let faces_found = input.faces.iter().filter(|f| faces.contains(&turned(f.map(|v| before[v as usize])))).count();
+    SurfaceKept {
+        input_vertices: used.len(),
+        vertices_found,
+        vertex_share: share(vertices_found as f64, used.len() as f64, 1.0),
+        still_vertices: still.len(),
+        still_vertices_found,
+        still_vertex_share: share(still_vertices_found as f64, still.len() as f64, 1.0),
+        input_faces: input.faces.len(),
+        faces_found,
+        face_share: share(faces_found as f64, input.faces.len() as f64, 1.0),
+    }
+}
+
+fn quality(mesh: &TriangleMesh, is_wanted: impl Fn(usize) -> bool, h: f64) -> TriangleQuality {
+    let faces: Vec<usize> = (0..mesh.faces.len()).filter(|&f| is_wanted(f)).collect();
+    let mut smallest = (60.0, None);
+    let (mut sum, mut edges) = (0.0, 0.0);
+    for &f in &faces {
+        let corners = mesh.triangle(f);
+        let least = angles(corners).into_iter().fold(f64::INFINITY, f64::min).to_degrees();
+        if least < smallest.0 {
+            smallest = (least, Some([corners[0].x, corners[0].y, corners[0].z]));
+        }
+        sum += least;
+        edges += (0..3).map(|k| (corners[(k + 1) % 3] - corners[k]).norm()).sum::<f64>() / 3.0;
+    }
+    let count = faces.len() as f64;
+    TriangleQuality {
+        moved_faces: faces.len(),
+        smallest_angle_degrees: smallest.0,
+        smallest_angle_place: smallest.1,
+        mean_smallest_angle_degrees: share(sum, count, 60.0),
+        mean_edge_over_h: share(edges, count, 0.0) / h,
+    }
+}
+
+fn curvature(mesh: &TriangleMesh, has_moved: &[bool], radius: f64) -> CurvatureBound {
+    let curvatures = minimum_curvatures(mesh);
+    let used = is_used(mesh);
+    let moved: Vec<f64> =
+        (0..curvatures.len()).filter(|&v| has_moved[v] && used[v]).map(|v| curvatures[v] * radius).collect();
+    let below = |bound: f64| share(moved.iter().filter(|k| **k < -bound).count() as f64, moved.len() as f64, 0.0);
+    CurvatureBound {
+        moved_vertices: moved.len(),
+        share_below_1_1: below(1.1),
+        share_below_1_5: below(1.5),
+        least_times_r: moved.iter().copied().fold(f64::INFINITY, f64::min).min(curvatures_bound(&moved)),
+    }
+}
+
+/// Where nothing moved there is no least curvature: 0.
+fn curvatures_bound(moved: &[f64]) -> f64 {
+    if moved.is_empty() { 0.0 } else { f64::INFINITY }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,229 @@
+//! What a surface of triangles is like by itself: topology, crossings, angles, curvature.
+
+use super::surface_report::SurfaceTopology;
+use crate::mesh::{Hierarchy, Point, TriangleMesh, Vector};
+
+/// The sides of all edges, those of one edge together: the vertices of the edge, the lower first, and 3 face + corner.
+pub(super) fn sides(mesh: &TriangleMesh) -> Vec<([u32; 2], u32)> {
+    let of_face = |(f, face): (usize, &[u32; 3])| {
+        let face = *face;
+        (0..3).map(move |k| {
+            let (a, b) = (face[k], face[(k + 1) % 3]);
+            ([a.min(b), a.max(b)], (3 * f + k) as u32)
+        })
+    };
+    let mut sides: Vec<_> = mesh.faces.iter().enumerate().flat_map(of_face).collect();
+    sides.sort_unstable();
+    sides
+}
+
+/// Sets of numbers that are united.
+struct Sets(Vec<u32>);
+
+impl Sets {
+    fn new(count: usize) -> Sets {
+        Sets((0..count as u32).collect())
+    }
+
+    fn find(&mut self, mut k: u32) -> u32 {
+        while self.0[k as usize] != k {
+            self.0[k as usize] = self.0[self.0[k as usize] as usize];
+            k = self.0[k as usize];
+        }
+        k
+    }
+
+    fn unite(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+
+    /// How many sets the numbers of `which` are in.
+    fn count(&mut self, which: impl Iterator<Item = u32>) -> usize {
+        let mut roots: Vec<u32> = which.map(|k| self.find(k)).collect();
+        roots.sort_unstable();
+        roots.dedup();
+        roots.len()
+    }
+}
+
+/// Counts vertices, parts and boundaries.
+pub(super) fn topology(mesh: &TriangleMesh) -> SurfaceTopology {
+    let sides = sides(mesh);
+    let mut parts = Sets::new(mesh.faces.len());
+    let mut boundary = Sets::new(mesh.points.len());
+    let mut on_boundary = Vec::new();
+    let (mut edges, mut nonmanifold_edges) = (0, 0);
+    for edge in sides.chunk_by(|a, b| a.0 == b.0) {
+        edges += 1;
+        let [u, v] = edge[0].0;
+        for side in edge {
+            parts.unite(edge[0].1 / 3, side.1 / 3);
+        }
+        let runs_up = |side: &([u32; 2], u32)| mesh.faces[side.1 as usize / 3][side.1 as usize % 3] == u;
+        match edge {
+            [_] => {
+                boundary.unite(u, v);
+                on_boundary.push(u);
+            }
+            [a, b] if runs_up(a) != runs_up(b) => {}
+            _ => nonmanifold_edges += 1,
+        }
+    }
+    let vertices = is_used(mesh).into_iter().filter(|used| *used).count();
+    SurfaceTopology {
+        vertices,
+        faces: mesh.faces.len(),
+        euler_characteristic: vertices as i64 - edges + mesh.faces.len() as i64,
+        components: parts.count(0..mesh.faces.len() as u32),
+        boundary_loops: boundary.count(on_boundary.into_iter()),
+        nonmanifold_edges,
+    }
+}
+
+/// Whether some face has each vertex.
+pub(super) fn is_used(mesh: &TriangleMesh) -> Vec<bool> {
+    let mut used = vec![false; mesh.points.len()];
+    for &v in mesh.faces.as_flattened() {
+        used[v as usize] = true;
+    }
+    used
+}
+
+/// Pairs of faces that cross each other, the lower number first: faces that share an edge do not count.
+pub(super) fn self_intersections(mesh: &TriangleMesh) -> Vec<(u32, u32)> {
+    let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
+    let faces: Vec<u32> = (0..mesh.faces.len() as u32).collect();
+    let of_face = |&f: &u32| {
+        let [a, b, c] = mesh.triangle(f as usize);
+        let mut found = Vec::new();
+        hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |g| {
+            if g > f && do_cross(mesh, f, g) {
+                found.push((f, g));
+            }
+            false
+        });
+        found.sort_unstable();
+        found
+    };
+    crate::reference::threads::map(&faces, of_face).into_iter().flatten().collect()
+}
+
+/// Whether two faces cross. With a corner in common, whether the side opposite to it crosses the other face.
+fn do_cross(mesh: &TriangleMesh, f: u32, g: u32) -> bool {
+    let (a, b) = (mesh.faces[f as usize], mesh.faces[g as usize]);
+    let shared: Vec<u32> = a.iter().copied().filter(|v| b.contains(v)).collect();
+    let pierces = |from: [u32; 3], into: u32| {
+        let triangle = mesh.triangle(into as usize);
+        (0..3).map(|k| [from[k], from[(k + 1) % 3]]).filter(|side| !side.iter().any(|v| shared.contains(v))).any(
+            |side| {
+                let [p, q] = side.map(|v| mesh.points[v as usize]);
+                is_pierced(triangle, p, q)
+            },
+        )
+    };
+    shared.len() < 2 && (pierces(a, g) || pierces(b, f))
+}
+
+/// Whether the segment from `p` to `q` goes through the triangle from one side to the other. What touches does not.
+fn is_pierced([a, b, c]: [Point; 3], p: Point, q: Point) -> bool {
+    let volume = |u: Point, v: Point, w: Point, x: Point| (v - u).cross(&(w - u)).dot(&(x - u));
+    let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
+    if above * below >= 0.0 {
+        return false;
+    }
+    let turns = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)];
+    turns.iter().all(|x| *x > 0.0) || turns.iter().all(|x| *x < 0.0)
+}
+
+/// The angles of a triangle in radians.
+pub(super) fn angles([a, b, c]: [Point; 3]) -> [f64; 3] {
+    let angle = |p: Point, q: Point, r: Point| {
+        let (u, v): (Vector, Vector) = (q - p, r - p);
+        u.cross(&v).norm().atan2(u.dot(&v))
+    };
+    [angle(a, b, c), angle(b, c, a), angle(c, a, b)]
+}
+
+/// The minimum curvature of all vertices by equations 17 and 18 of the paper: with the integrated mean curvature H (a quarter of
+/// length times dihedral angle over the edges at the vertex: equation 18's half is twice that), the angle defect K and
+/// the mass M, it is (H - √(H² - M K)) / M. Zero where there is no mass.
+pub(super) fn minimum_curvatures(mesh: &TriangleMesh) -> Vec<f64> {
+    let n = mesh.points.len();
+    let (mut mean, mut defect, mut mass) = (vec![0.0; n], vec![std::f64::consts::TAU; n], vec![0.0; n]);
+    for (k, face) in mesh.faces.iter().enumerate() {
+        let third = mesh.area_vector(k).norm() / 6.0;
+        for (v, angle) in face.iter().zip(angles(mesh.triangle(k))) {
+            mass[*v as usize] += third;
+            defect[*v as usize] -= angle;
+        }
+    }
+    for edge in sides(mesh).chunk_by(|a, b| a.0 == b.0) {
+        let [(ends, one), (_, other)] = edge else { continue };
+        let [p, q] = ends.map(|v| mesh.points[v as usize]);
+        let [u, v] = [one, other].map(|s| mesh.area_vector(*s as usize / 3));
+        let far =
+            mesh.points[mesh.faces[*other as usize / 3][(*other as usize + 2 - *other as usize / 3 * 3) % 3] as usize];
+        let sign = if (far - p).dot(&u) > 0.0 { -1.0 } else { 1.0 };
+        let part = 0.25 * (q - p).norm() * u.cross(&v).norm().atan2(u.dot(&v)) * sign;
+        for v in ends {
+            mean[*v as usize] += part;
+        }
+    }
+    let least = |k: usize| {
+        let (h, m) = (mean[k], mass[k]);
+        if m > 0.0 { (h - (h * h - m * defect[k]).max(0.0).sqrt()) / m } else { 0.0 }
+    };
+    (0..n).map(least).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reference::surface_shapes::{both, sphere};
+
+    #[test]
+    fn surfaces_are_counted() {
+        let ball = sphere(Point::origin(), 1.0, 3);
+        let one = topology(&ball);
+        assert_eq!((one.vertices, one.faces, one.euler_characteristic), (38, 72, 2));
+        assert_eq!((one.components, one.boundary_loops, one.nonmanifold_edges), (1, 0, 0));
+        let two = topology(&both(&ball, &sphere(Point::new(5.0, 0.0, 0.0), 1.0, 2)));
+        assert_eq!((two.euler_characteristic, two.components), (4, 2));
+        let mut open = ball.clone();
+        open.faces.remove(0);
+        let last = open.faces.len() - 1;
+        open.faces.remove(last);
+        let open = topology(&open);
+        assert_eq!((open.euler_characteristic, open.components, open.boundary_loops), (0, 1, 2));
+        let mut twisted = ball;
+        twisted.faces[10].swap(0, 1);
+        assert_eq!(topology(&twisted).nonmanifold_edges, 3);
+    }
+
+    #[test]
+    fn crossings_are_found_and_neighbours_do_not_cross() {
+        let ball = sphere(Point::origin(), 1.0, 4);
+        assert!(self_intersections(&ball).is_empty());
+        let apart = both(&ball, &sphere(Point::new(2.1, 0.0, 0.0), 1.0, 4));
+        assert!(self_intersections(&apart).is_empty());
+        let crossing = both(&ball, &sphere(Point::new(1.5, 0.01, 0.02), 1.0, 4));
+        let pairs = self_intersections(&crossing);
+        let n = ball.faces.len() as u32;
+        assert!(!pairs.is_empty() && pairs.iter().all(|(f, g)| *f < n && *g >= n));
+        // A vertex pulled through the other side takes its faces through those there.
+        let mut pulled = ball.clone();
+        pulled.points[0] *= -1.3;
+        assert!(self_intersections(&pulled).len() >= 4);
+    }
+
+    #[test]
+    fn spheres_have_the_curvature_of_spheres_and_dents_of_dents() {
+        let ball = sphere(Point::origin(), 2.0, 20);
+        let curvatures = minimum_curvatures(&ball);
+        let mean = |k: &[f64]| k.iter().sum::<f64>() / k.len() as f64;
+        assert!((mean(&curvatures) - 0.5).abs() < 0.03, "{}", mean(&curvatures));
+        let inside_out = minimum_curvatures(&ball.reversed());
+        assert!((mean(&inside_out) + 0.5).abs() < 0.03);
+    }
+}
