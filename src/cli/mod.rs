@@ -11,6 +11,7 @@ mod mill;
 mod output;
 mod preview;
 mod report;
+mod surface;
 mod text;
 
 use std::process::ExitCode;
@@ -45,6 +46,8 @@ enum Command {
     Text(text::TextArgs),
     /// Restyle a whole font: all its glyphs closed or opened, in an installable TrueType font
     Font(font::FontArgs),
+    /// Close, open or clopen a mesh with a ball, and check any such result
+    Surface(Box<surface::SurfaceArgs>),
     /// Look for what a controller would refuse and what a machine should not do, in anyone's program
     Lint(lint::LintArgs),
 }
@@ -82,6 +85,7 @@ pub fn main() -> ExitCode {
         Command::Preview(args) => preview::run(&args),
         Command::Text(args) => text::run(&args),
         Command::Font(args) => font::run(&args),
+        Command::Surface(args) => surface::run(&args),
         Command::Lint(args) => lint::run(&args),
     };
     match result {

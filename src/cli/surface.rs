@@ -1,0 +1,183 @@
+//! `clopen surface`: closing, opening and clopening of meshes, and the check of any result.
+
+mod check;
+mod pins;
+mod report;
+mod work;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+use clap::{Args, Subcommand, ValueEnum};
+
+use super::check::FormatArg;
+use super::{ExitStatus, output};
+use pins::FieldArgs;
+
+/// The arguments.
+#[derive(Clone, Debug, Args)]
+pub(super) struct SurfaceArgs {
+    #[command(subcommand)]
+    command: SurfaceCommand,
+}
+
+#[derive(Clone, Debug, Subcommand)]
+enum SurfaceCommand {
+    /// Fill what a ball cannot reach from outside: concave edges get the ball's radius, the rest stays
+    Close(WorkArgs),
+    /// Remove what a ball cannot reach from inside: convex edges get the ball's radius, the rest stays
+    Open(WorkArgs),
+    /// Close and open, one after the other
+    Clopen(ClopenArgs),
+    /// Measure a closed or opened mesh against the definition: contact error, containment, kept vertices, triangles
+    Check(check::SurfaceCheckArgs),
+}
+
+/// The arguments of `close` and `open`.
+#[derive(Clone, Debug, Args)]
+struct WorkArgs {
+    /// The mesh: OBJ, STL or PLY by its name; - is standard input
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// Radius of the ball: in units of the mesh, or 2% (of the diagonal of its box)
+    #[arg(short, long, value_name = "RADIUS", allow_hyphen_values = true)]
+    radius: MeshLength,
+    /// Where the result goes: OBJ, STL or PLY by its name; standard output, as OBJ, unless given. PLY gets a colour and a
+    /// displacement for each vertex
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Length of edges where the surface moves; found from the radius and the mesh unless given
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    edge_length: Option<MeshLength>,
+    /// How the result is found
+    #[arg(long, value_enum, default_value_t = MethodArg::Direct)]
+    method: MethodArg,
+    /// Mend what can be mended without a choice: faces that are duplicates or degenerate, faces oriented against their
+    /// neighbours, vertices without faces
+    #[arg(long)]
+    repair: bool,
+    /// Where a picture goes, PNG: before and after, what moved in another colour
+    #[arg(long, value_name = "PICTURE")]
+    preview: Option<PathBuf>,
+    #[command(flatten)]
+    field: FieldArgs,
+    /// How to print the report: text goes to standard error, json to standard output
+    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
+    format: FormatArg,
+}
+
+/// The arguments of `clopen`.
+#[derive(Clone, Debug, Args)]
+struct ClopenArgs {
+    #[command(flatten)]
+    work: WorkArgs,
+    /// Which comes first
+    #[arg(long, value_enum, default_value_t = OrderArg::CloseOpen)]
+    order: OrderArg,
+}
+
+/// `--order`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum OrderArg {
+    /// Close, then open
+    CloseOpen,
+    /// Open, then close
+    OpenClose,
+}
+
+/// `--method`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+enum MethodArg {
+    /// A ball rolls on the surface: the limit at once; what need not move stays bit for bit
+    Direct,
+    /// Dilation and erosion on a grid, for comparison: nothing is kept
+    Volume,
+}
+
+/// What is done to a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Step {
+    Close,
+    Open,
+}
+
+/// A length in units of the mesh, or in parts of its diagonal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum MeshLength {
+    Units(f64),
+    Percent(f64),
+}
+
+impl std::str::FromStr for MeshLength {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<MeshLength, String> {
+        let (number, percent) = match text.trim().strip_suffix('%') {
+            Some(number) => (number, true),
+            None => (text.trim(), false),
+        };
+        let value: f64 = number.trim().parse().map_err(|_| "write 0.05 (in units of the mesh) or 2%".to_owned())?;
+        if !(value > 0.0 && value.is_finite()) {
+            return Err("it must be a finite number above zero: 0.05 (in units of the mesh) or 2%".to_owned());
+        }
+        Ok(if percent { MeshLength::Percent(value) } else { MeshLength::Units(value) })
+    }
+}
+
+impl MeshLength {
+    /// The length on a mesh of this diagonal.
+    fn on(self, diagonal: f64) -> f64 {
+        match self {
+            MeshLength::Units(x) => x,
+            MeshLength::Percent(x) => 0.01 * x * diagonal,
+        }
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where a mesh cannot be read, is no surface, or the result cannot be written.
+pub(super) fn run(args: &SurfaceArgs) -> Result<ExitStatus> {
+    match &args.command {
+        SurfaceCommand::Close(args) => args.run(&[Step::Close]),
+        SurfaceCommand::Open(args) => args.run(&[Step::Open]),
+        SurfaceCommand::Clopen(args) => args.work.run(match args.order {
+            OrderArg::CloseOpen => &[Step::Close, Step::Open],
+            OrderArg::OpenClose => &[Step::Open, Step::Close],
+        }),
+        SurfaceCommand::Check(args) => check::run(args),
+    }
+}
+
+impl WorkArgs {
+    fn run(&self, steps: &[Step]) -> Result<ExitStatus> {
+        let target = self.output.clone().unwrap_or_else(|| PathBuf::from("-"));
+        if self.format == FormatArg::Json && target == Path::new("-") {
+            bail!("--format json prints the report on standard output, where the mesh would go: add -o OUT.obj");
+        }
+        output::keep_input(&self.input, &target)?;
+        for target in [Some(&target), self.preview.as_ref()].into_iter().flatten() {
+            output::keep_folder(target)?;
+        }
+        let format = work::format_of(&target)?;
+        let input = work::Input::read(&self.input, self.repair)?;
+        let done = work::apply(self, &input, steps)?;
+        let picture = self.preview.as_ref().map(|_| done.picture(&input)).transpose()?;
+        let bytes = done.write(&input, format);
+        let mut files = vec![(target.as_path(), bytes.as_slice())];
+        if let (Some(path), Some(picture)) = (&self.preview, &picture) {
+            output::keep_input(&self.input, path)?;
+            files.push((path, picture));
+        }
+        output::write_together(&files)?;
+        let report = report::Report::new(self, &input, steps, &done);
+        match self.format {
+            FormatArg::Text => output::say(&report.lines()),
+            FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
+        }
+        Ok(if report.conflicts.is_empty() { ExitStatus::Done } else { ExitStatus::CheckFailed })
+    }
+}

@@ -1,0 +1,118 @@
+//! What was done to a surface, for people and for programs.
+
+use std::fmt::Write as _;
+
+use super::work::{Done, Input};
+use super::{MethodArg, Step, WorkArgs};
+use crate::mesh::{NONE, TriangleMesh};
+use crate::rolling::Trouble;
+
+/// So many conflicts are named.
+const NAMED: usize = 5;
+
+/// The report.
+#[derive(Clone, Debug, serde::Serialize)]
+pub(super) struct Report {
+    steps: Vec<Step>,
+    method: MethodArg,
+    radius_units: f64,
+    edge_length_units: f64,
+    vertices_in: usize,
+    vertices_kept: usize,
+    vertices_out: usize,
+    faces_in: usize,
+    faces_kept: usize,
+    faces_out: usize,
+    volume_in: f64,
+    volume_out: f64,
+    /// The largest distance of the middle of an edge or face of the moved part from the closing, in edge lengths.
+    largest_error_edge_lengths: Option<f64>,
+    repairs: usize,
+    remarks: Vec<String>,
+    pub conflicts: Vec<Place>,
+}
+
+#[derive(Clone, Debug, serde::Serialize)]
+pub(super) struct Place {
+    place: [f64; 3],
+    trouble: Trouble,
+}
+
+impl Report {
+    pub fn new(args: &WorkArgs, input: &Input, steps: &[Step], done: &Done) -> Report {
+        let result = TriangleMesh::new(done.points.clone(), done.faces.clone());
+        Report {
+            steps: steps.to_vec(),
+            method: args.method,
+            radius_units: done.radius,
+            edge_length_units: done.edge,
+            vertices_in: input.triangles.points.len(),
+            vertices_kept: done.origins.iter().filter(|&&v| v != NONE).count(),
+            vertices_out: done.points.len(),
+            faces_in: input.polygons.polygon_count(),
+            faces_kept: done.kept_polygons(input).iter().filter(|kept| **kept).count(),
+            faces_out: done.faces.len(),
+            volume_in: input.triangles.volume(),
+            volume_out: result.volume(),
+            largest_error_edge_lengths: (args.method == MethodArg::Direct).then_some(done.error / done.edge),
+            repairs: input.repairs.len(),
+            remarks: input.remarks(),
+            conflicts: done
+                .conflicts
+                .iter()
+                .map(|c| Place { place: [c.place.x, c.place.y, c.place.z], trouble: c.trouble })
+                .collect(),
+        }
+    }
+
+    pub fn lines(&self) -> String {
+        let steps: Vec<&str> = self
+            .steps
+            .iter()
+            .map(|s| match s {
+                Step::Close => "closing",
+                Step::Open => "opening",
+            })
+            .collect();
+        let mut text = format!(
+            "{} by {} with edges of {:.4}: {} of {} vertices and {} of {} faces kept bit for bit, now {} and {}; volume {:+.3} %\n",
+            steps.join(", then "),
+            self.radius_units,
+            self.edge_length_units,
+            self.vertices_kept,
+            self.vertices_in,
+            self.faces_kept,
+            self.faces_in,
+            self.vertices_out,
+            self.faces_out,
+            100.0 * (self.volume_out / self.volume_in - 1.0),
+        );
+        if let Some(error) = self.largest_error_edge_lengths {
+            let _ =
+                writeln!(text, "moved faces are within {error:.3} edge lengths of the exact result at their middles");
+        }
+        if self.repairs > 0 {
+            let _ = writeln!(text, "{} repairs", self.repairs);
+        }
+        for remark in &self.remarks {
+            let _ = writeln!(text, "note: {remark}");
+        }
+        for conflict in self.conflicts.iter().take(NAMED) {
+            let [x, y, z] = conflict.place;
+            let what = match conflict.trouble {
+                Trouble::Tear => "the surface would tear",
+                Trouble::Fold => "the surface would fold",
+                Trouble::Lost => "the ball finds no rest",
+                Trouble::Dip => "the surface would cut into the input",
+            };
+            let _ = writeln!(
+                text,
+                "CONFLICT at ({x:.4}, {y:.4}, {z:.4}): {what}; what is around it was closed less or not at all"
+            );
+        }
+        if self.conflicts.len() > NAMED {
+            let _ = writeln!(text, "CONFLICT: {} places in all; --format json lists them", self.conflicts.len());
+        }
+        text
+    }
+}

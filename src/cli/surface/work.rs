@@ -1,0 +1,277 @@
+//! A mesh read and looked at, worked on, and written with what did not change as it was.
+
+use std::path::Path;
+
+use anyhow::{Context as _, Result, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{MethodArg, Step, WorkArgs};
+use crate::cli::input;
+use crate::io::mesh::{self as files, MeshFormat};
+use crate::mesh::{NONE, Point, PolygonMesh, Problem, Repair, Severity, TriangleMesh, problems, repair};
+use crate::preview::{self, MeshStyle};
+use crate::reference::volumetric_close;
+use crate::rolling::{ClosedSurface, Conflict, SurfaceOptions, close_surface};
+
+/// Edges are to be so many radii long: a fillet of a right angle gets ten.
+const EDGE: f64 = 1.0 / 6.0;
+
+/// They are no shorter than this part of the radius, however fine the mesh.
+const FINEST_EDGE: f64 = 1.0 / 30.0;
+
+/// Radii from the smallest to the largest of these, in diagonals of the mesh, make sense.
+const RADII: [f64; 2] = [1e-5, 1.0];
+
+/// Edges shorter than this, in diagonals, would make more triangles than a machine can hold.
+const SHORTEST_EDGE: f64 = 1e-5;
+
+/// So many problems are named.
+const NAMED: usize = 5;
+
+/// Colours of what moved and what stayed, in PLY files.
+const MOVED: [u8; 3] = [232, 119, 34];
+const STAYED: [u8; 3] = [200, 204, 209];
+
+/// A mesh as it was read.
+pub(super) struct Input {
+    pub polygons: PolygonMesh,
+    pub triangles: TriangleMesh,
+    pub allowed: Vec<Problem>,
+    pub repairs: Vec<Repair>,
+}
+
+/// The format of a file that is to be written.
+pub(super) fn format_of(path: &Path) -> Result<MeshFormat> {
+    if path == Path::new("-") {
+        return Ok(MeshFormat::Obj);
+    }
+    match MeshFormat::of_path(path) {
+        Some(format) => Ok(format),
+        None => bail!("{}: the name says no format: write .obj, .stl or .ply", path.display()),
+    }
+}
+
+/// The polygons in a file.
+pub(super) fn read_polygons(path: &Path) -> Result<PolygonMesh> {
+    let bytes = input::read_bytes(path)?;
+    let format = MeshFormat::of_path(path).unwrap_or_else(|| MeshFormat::of_bytes(&bytes));
+    files::read(&bytes, format).with_context(|| path.display().to_string())
+}
+
+impl Input {
+    /// Reads a mesh and looks at it.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or the mesh is no surface with an inside.
+    pub fn read(path: &Path, mend: bool) -> Result<Input> {
+        let mut polygons = read_polygons(path)?;
+        let mut repairs = Vec::new();
+        if mend {
+            (polygons, repairs) = repair(polygons);
+        }
+        let found = problems(&polygons);
+        let refused: Vec<&Problem> = found
+            .iter()
+            .filter(|p| match p.severity() {
+                Severity::Refused => true,
+                // A vertex without faces hurts nobody.
+                Severity::Repairable => !matches!(p, Problem::Unused { .. }),
+                Severity::Allowed => false,
+            })
+            .collect();
+        if let Some(first) = refused.first() {
+            let more = match refused.len() - 1 {
+                0 => String::new(),
+                n => format!(" (and {n} more such problems)"),
+            };
+            let hint = if first.severity() == Severity::Repairable { "; --repair mends that" } else { "" };
+            bail!("{}: {first}{hint}{more}", path.display());
+        }
+        let allowed = found.iter().filter(|p| p.severity() == Severity::Allowed).copied().collect();
+        let triangles = polygons.triangulated();
+        Ok(Input { polygons, triangles, allowed, repairs })
+    }
+
+    /// Where the mesh is, in words.
+    pub fn extent(&self) -> String {
+        let [low, high] = self.triangles.bounds().unwrap_or([Point::origin(); 2]);
+        format!("it reaches from ({}, {}, {}) to ({}, {}, {})", low.x, low.y, low.z, high.x, high.y, high.z)
+    }
+
+    /// What is allowed and worth saying.
+    pub fn remarks(&self) -> Vec<String> {
+        self.allowed.iter().take(NAMED).map(Problem::to_string).collect()
+    }
+}
+
+/// What came out.
+pub(super) struct Done {
+    /// Vertices, and which of the input's each is, or none.
+    pub points: Vec<Point>,
+    pub origins: Vec<u32>,
+    /// Faces, and which of the input's triangles each is, or none.
+    pub faces: Vec<[u32; 3]>,
+    pub parents: Vec<u32>,
+    pub conflicts: Vec<Conflict>,
+    pub error: f64,
+    pub edge: f64,
+    pub radius: f64,
+}
+
+/// Does the steps, one after the other.
+pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Done> {
+    let diagonal = input.triangles.diagonal();
+    let radius = args.radius.on(diagonal);
+    let field = args.field.resolve(input, radius)?;
+    for r in [field.smallest, field.largest] {
+        if !(RADII[0] * diagonal..=RADII[1] * diagonal).contains(&r) {
+            bail!(
+                "a radius of {r} on a mesh whose box has a diagonal of {diagonal}: give one from {:.3e} to {:.3e}, for example 2%",
+                RADII[0] * diagonal,
+                RADII[1] * diagonal
+            );
+        }
+    }
+    let edge = match args.edge_length {
+        Some(edge) => edge.on(diagonal),
+        None => (EDGE * field.smallest).min(input.triangles.mean_edge().max(FINEST_EDGE * field.smallest)),
+    };
+    if edge < SHORTEST_EDGE * diagonal || edge > field.smallest {
+        bail!(
+            "an edge length of {edge}: it must be at most the radius ({}) and at least {:.3e}",
+            field.smallest,
+            SHORTEST_EDGE * diagonal
+        );
+    }
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
+        bar.set_style(style);
+    }
+    let mut done = Done {
+        points: input.triangles.points.clone(),
+        origins: (0..input.triangles.points.len() as u32).collect(),
+        faces: input.triangles.faces.clone(),
+        parents: (0..input.triangles.faces.len() as u32).collect(),
+        conflicts: Vec::new(),
+        error: 0.0,
+        edge,
+        radius,
+    };
+    for step in steps {
+        bar.set_message(match step {
+            Step::Close => "closing",
+            Step::Open => "opening",
+        });
+        bar.enable_steady_tick(std::time::Duration::from_millis(100));
+        let mut mesh = TriangleMesh::new(done.points.clone(), done.faces.clone());
+        if *step == Step::Open {
+            mesh = mesh.reversed();
+        }
+        let mut next = match args.method {
+            MethodArg::Direct => {
+                let options = SurfaceOptions {
+                    radius: &*field.radius,
+                    pin_distance: &*field.pin_distance,
+                    edge,
+                    threads: std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+                };
+                close_surface(&mesh, &options)?
+            }
+            MethodArg::Volume => {
+                let closed = volumetric_close(&mesh, radius, edge).context("--method volume")?;
+                ClosedSurface {
+                    origins: vec![NONE; closed.points.len()],
+                    parents: vec![NONE; closed.faces.len()],
+                    points: closed.points,
+                    faces: closed.faces,
+                    ..ClosedSurface::default()
+                }
+            }
+        };
+        if *step == Step::Open {
+            next.faces.iter_mut().for_each(|f| f.swap(1, 2));
+        }
+        // Faces that did not change are those of the input, corner by corner.
+        let through = |of: &[u32], k: u32| if k == NONE { NONE } else { of[k as usize] };
+        done = Done {
+            origins: next.origins.iter().map(|&k| through(&done.origins, k)).collect(),
+            parents: next.parents.iter().map(|&k| through(&done.parents, k)).collect(),
+            points: next.points,
+            faces: next.faces,
+            conflicts: [done.conflicts, next.conflicts].concat(),
+            error: done.error.max(next.error),
+            ..done
+        };
+    }
+    bar.finish_and_clear();
+    Ok(done)
+}
+
+impl Done {
+    /// Whether each face has moved or is new.
+    fn moved(&self) -> Vec<bool> {
+        self.parents.iter().map(|&p| p == NONE).collect()
+    }
+
+    /// The input and the result side by side.
+    pub fn picture(&self, input: &Input) -> Result<Vec<u8>> {
+        let after = TriangleMesh::new(self.points.clone(), self.faces.clone());
+        let moved = self.moved();
+        let style = MeshStyle { moved: Some(&moved), ..MeshStyle::default() };
+        preview::meshes(&[(&input.triangles, MeshStyle::default()), (&after, style)]).context("--preview")
+    }
+
+    /// The result as a file: polygons of the input whose triangles are all unchanged come first, in its order.
+    pub fn write(&self, input: &Input, format: MeshFormat) -> Vec<u8> {
+        files::write(&self.polygons(input, format == MeshFormat::Ply), format)
+    }
+
+    /// How many polygons of the input are unchanged.
+    pub fn kept_polygons(&self, input: &Input) -> Vec<bool> {
+        let count = input.polygons.polygon_count();
+        let parent = |t: usize| input.triangles.parents.get(t).map_or(t, |&p| p as usize);
+        let mut total = vec![0u32; count];
+        (0..input.triangles.faces.len()).for_each(|t| total[parent(t)] += 1);
+        let mut left = vec![0u32; count];
+        self.parents.iter().filter(|&&p| p != NONE).for_each(|&p| left[parent(p as usize)] += 1);
+        total.iter().zip(&left).map(|(t, l)| *t > 0 && t == l).collect()
+    }
+
+    fn polygons(&self, input: &Input, colour: bool) -> PolygonMesh {
+        let mut mesh = PolygonMesh::new(self.points.clone());
+        let mut number = vec![NONE; input.triangles.points.len()];
+        for (k, &v) in self.origins.iter().enumerate() {
+            if v != NONE {
+                number[v as usize] = k as u32;
+            }
+        }
+        let kept = self.kept_polygons(input);
+        for (k, _) in kept.iter().enumerate().filter(|(_, kept)| **kept) {
+            let corners: Vec<u32> = input.polygons.polygon(k).iter().map(|&v| number[v as usize]).collect();
+            mesh.push(&corners);
+        }
+        let parent = |t: u32| input.triangles.parents.get(t as usize).map_or(t, |&p| p);
+        for (face, &origin) in self.faces.iter().zip(&self.parents) {
+            if origin == NONE || !kept[parent(origin) as usize] {
+                mesh.push(face);
+            }
+        }
+        if colour {
+            self.paint(&mut mesh, input);
+        }
+        mesh
+    }
+
+    /// Colours and displacements of the vertices.
+    fn paint(&self, mesh: &mut PolygonMesh, input: &Input) {
+        let surface = crate::mesh::Hierarchy::new(&input.triangles.points, &input.triangles.faces);
+        let own = &input.polygons.colours;
+        for (k, &v) in self.origins.iter().enumerate() {
+            let stays = v != NONE;
+            let colour = if stays { own.get(v as usize).copied().unwrap_or(STAYED) } else { MOVED };
+            mesh.colours.push(colour);
+            let distance = || surface.nearest(self.points[k], f64::INFINITY).map_or(0.0, |hit| hit.distance);
+            mesh.scalars.push(if stays { 0.0 } else { distance() });
+        }
+    }
+}
