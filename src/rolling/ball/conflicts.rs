@@ -5,7 +5,7 @@ use super::parallel;
 use crate::mesh::Point;
 
 /// The middle of an edge or a face may be this far from the closing, in edge lengths, where the surface is whole.
-const TORN: f64 = 0.5;
+const TORN: f64 = 1.0;
 
 /// A face whose normal is farther from that of a ball at its corner than this cosine tells is folded.
 const FOLDED: f64 = -0.2;

@@ -36,10 +36,10 @@ const CUTS: usize = 8;
 /// So often it is tried again, with smaller balls around what could not be done.
 const ATTEMPTS: usize = 3;
 
-/// Around a conflict nothing moves within this part of the radius, and from there the radius grows by this much for every
-/// unit of distance, as it does from what is pinned.
-const CLEARANCE: f64 = 0.5;
-const EASE: f64 = 0.7;
+/// Around a conflict nothing moves within this part of the radius, twice and thrice as far where that is not enough; from there
+/// the radius grows by this much for every unit of distance, as it does from what is pinned.
+const CLEARANCE: f64 = 0.25;
+const EASE: f64 = 1.0;
 
 /// A vertex that would move by less than this many sagittas of its edges stays, and by less than so many edge lengths: the
 /// samples of a surface that the ball fits are on it, not their chords.
@@ -92,14 +92,18 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
         // Around what could not be done the ball gets smaller, down to nothing.
         let corners: Vec<[u32; 3]> = (0..stays.len() as u32).map(|k| [k; 3]).collect();
         let avoided = Hierarchy::new(&stays, &corners);
+        let clearance = CLEARANCE * attempt as f64;
         let field = |p: Point| {
             let r = (options.radius)(p);
             let pinned = (options.pin_distance)(p);
-            let near = avoided.nearest(p, (1.0 / EASE + CLEARANCE) * r).map_or(f64::INFINITY, |n| n.distance);
-            r.min(EASE * pinned.min(near - CLEARANCE * r)).max(0.0)
+            let near = avoided.nearest(p, (1.0 / EASE + clearance) * r).map_or(f64::INFINITY, |n| n.distance);
+            r.min(EASE * pinned.min(near - clearance * r)).max(0.0)
         };
         let covering = cover(input, &ground, &field, options);
         let found = conflicts::find(&covering, options.threads);
+        if std::env::var_os("BALL").is_some() {
+            eprintln!("{} conflicts left", found.faces.len());
+        }
         let is_last = attempt == ATTEMPTS || found.faces.is_empty();
         if !is_last {
             for f in &found.faces {
