@@ -213,7 +213,7 @@ mod tests {
         assert!(!pairs.is_empty() && pairs.iter().all(|(f, g)| *f < n && *g >= n));
         // A vertex pulled through the other side takes its faces through those there.
         let mut pulled = ball.clone();
-        pulled.points[0] *= -1.3;
+        pulled.points[0] = Point::from(pulled.points[0].coords * -1.3 + Vector::new(0.01, 0.02, 0.03));
         assert!(self_intersections(&pulled).len() >= 4);
     }
 
