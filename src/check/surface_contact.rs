@@ -67,7 +67,7 @@ impl<'a> Centres<'a> {
     }
 
     /// The contact of a point on the surface of the solid itself, which is never outside of the closing, with outward directions to
-    /// try first.
+    /// try first. The depth is one that is proved, the true one may be larger by the uncertainty.
     pub(super) fn contact_on_surface(&self, x: Point, outward: &[Vector]) -> Contact {
         let starts = outward.iter().map(|n| x + n * self.radius);
         if starts.clone().any(|y| self.is_free(y)) {
@@ -79,7 +79,8 @@ impl<'a> Centres<'a> {
             return Contact { depth: (found - self.radius).max(0.0), uncertainty: 0.0 };
         }
         let contact = self.certified(x, found);
-        Contact { depth: contact.depth.max(0.0), ..contact }
+        // Only what is proved: between touching faces a search may end before it finds the narrow way out.
+        Contact { depth: (contact.depth - contact.uncertainty).max(0.0), uncertainty: contact.uncertainty }
     }
 
     /// The contact of any point, with outward directions to try first.
