@@ -33,12 +33,12 @@
 //! - [`mesh`]: surfaces in space: half-edges, hierarchies of triangles;
 //! - [`flow`]: the flow whose limits closing and opening are, with its states on the way;
 //! - [`rolling`]: the closing, exactly: a disk rolls on the outline;
-//! - [`mod@reference`]: the closing by polygon offsetting, sharing no code with `rolling`, and a witness by distances;
+//! - [`mod@reference`]: the closing by polygon offsetting, sharing no code with `rolling`, and a witness by distances; surfaces on a grid;
 //! - [`check`]: a result against its reference; features that are lost;
 //! - [`io`]: SVG in and out, as an animation too; grey pictures in;
 //! - [`cam`]: job, offset, order, toolpath; what a program's motions cut, and how long they take;
 //! - [`gcode`]: the text of programs: dialects, writer, reader, lint;
-//! - [`preview`]: pictures of drawings, of their states in a flow, and of programs;
+//! - [`preview`]: pictures of drawings, of their states in a flow, of surfaces, and of programs;
 //! - [`cli`]: the command: alone knows clap and terminals.
 
 pub mod cam;

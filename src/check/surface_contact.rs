@@ -31,10 +31,10 @@ const LAST_STEP: f64 = 1e-7;
 const MOST_HOLDING: usize = 10;
 
 /// The search from below ends where it could gain no more than this, in radii.
-pub(super) const RESOLUTION: f64 = 1e-3;
+pub(super) const RESOLUTION: f64 = 4e-3;
 
 /// Boxes of one search from below, at most.
-const MOST_BOXES: usize = 6_000;
+const MOST_BOXES: usize = 4_000;
 
 /// The search goes no farther than this, in radii.
 const FARTHEST: f64 = 4.0;
@@ -67,7 +67,7 @@ impl<'a> Centres<'a> {
     }
 
     /// The contact of a point on the surface of the solid itself, which is never outside of the closing, with outward directions to
-    /// try first.
+    /// try first. The depth is one that is proved, the true one may be larger by the uncertainty.
     pub(super) fn contact_on_surface(&self, x: Point, outward: &[Vector]) -> Contact {
         let starts = outward.iter().map(|n| x + n * self.radius);
         if starts.clone().any(|y| self.is_free(y)) {
@@ -79,7 +79,8 @@ impl<'a> Centres<'a> {
             return Contact { depth: (found - self.radius).max(0.0), uncertainty: 0.0 };
         }
         let contact = self.certified(x, found);
-        Contact { depth: contact.depth.max(0.0), ..contact }
+        // Only what is proved: between touching faces a search may end before it finds the narrow way out.
+        Contact { depth: (contact.depth - contact.uncertainty).max(0.0), uncertainty: contact.uncertainty }
     }
 
     /// The contact of any point, with outward directions to try first.
@@ -133,13 +134,20 @@ impl<'a> Centres<'a> {
         HalfSpace { normal, offset: normal.dot(&p.coords) + self.radius }
     }
 
-    /// Whether no free centre can be in a box: what remains of it after the ball around the nearest point of the solid.
-    fn is_covered(&self, center: Point, half: f64) -> Option<Free> {
-        let r = self.radius;
+    /// Whether the middle of a box is a free centre; nothing where no place of the box that is nearer to `x` than `within` can be
+    /// one, because it is in the ball around the point of the solid nearest to the middle.
+    fn look_into(&self, x: Point, within: f64, cell: &Cell) -> Option<Free> {
+        let (r, center, half) = (self.radius, cell.center, cell.half);
         let reach = half * 3f64.sqrt();
         let Some(near) = self.solid.signed(center, r + reach) else { return Some(Free::Yes) };
-        let farthest2: f64 = (0..3).map(|k| ((center[k] - near.nearest[k]).abs() + half).powi(2)).sum();
-        if farthest2 < (r * (1.0 - TOUCH)).powi(2) || near.distance < -reach {
+        let p = near.nearest;
+        let limit = (r * (1.0 - TOUCH)).powi(2);
+        let farthest2: f64 = (0..3).map(|k| ((center[k] - p[k]).abs() + half).powi(2)).sum();
+        // |z - p|² = |z - x|² + 2 (z - x)·(x - p) + |x - p|²: the first is bounded by the ball, the second by the box.
+        let from = x - p;
+        let along = (center - x).dot(&from) + half * from.abs().sum();
+        let in_lens2 = within * within + 2.0 * along + from.norm_squared();
+        if farthest2.min(in_lens2) < limit || near.distance < -reach {
             return None;
         }
         Some(if near.distance >= r { Free::Yes } else { Free::No })
@@ -160,7 +168,7 @@ impl<'a> Centres<'a> {
                 break;
             }
             looked += 1;
-            let Some(free) = self.is_covered(cell.center, cell.half) else { continue };
+            let Some(free) = self.look_into(x, found - gain, &cell) else { continue };
             let center_distance = (cell.center - x).norm();
             if free == Free::Yes && center_distance < found {
                 found = center_distance;

@@ -63,7 +63,7 @@ pub struct ContactError {
     pub kept_samples: usize,
     /// The largest amount by which a distance may be smaller than was found.
     pub uncertainty_over_h: f64,
-    /// The fraction of the moved samples whose distance is certain to a thousandth of the radius.
+    /// The fraction of the moved samples whose distance is certain to 4 thousandths of the radius.
     pub certain_share: f64,
 }
 
@@ -142,7 +142,7 @@ pub struct CurvatureBound {
     pub share_below_1_1: f64,
     /// The fraction of them with less than -1.5 / r.
     pub share_below_1_5: f64,
-    /// The least, in 1 / r: -1 is the bound.
+    /// The least, in 1 / r: -1 is the bound. 0 where nothing moved.
     pub least_times_r: f64,
 }
 

@@ -128,12 +128,31 @@ fn do_cross(mesh: &TriangleMesh, f: u32, g: u32) -> bool {
 /// Whether the segment from `p` to `q` goes through the triangle from one side to the other. What touches does not.
 fn is_pierced([a, b, c]: [Point; 3], p: Point, q: Point) -> bool {
     let volume = |u: Point, v: Point, w: Point, x: Point| (v - u).cross(&(w - u)).dot(&(x - u));
+    // Of a volume: the rounding of coordinates over the squares of the lengths. Faces in one plane do not cross.
+    let places = [a, b, c, p, q];
+    let largest = places.iter().map(|x| x.coords.amax()).fold(0.0, f64::max);
+    let extent = places.iter().map(|x| (x - a).norm()).fold(0.0, f64::max);
+    let rounding = VOLUME_ROUNDING * largest * extent * extent;
     let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
-    if above * below >= 0.0 {
+    if above.min(below) >= -rounding || above.max(below) <= rounding {
         return false;
     }
     let turns = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)];
-    turns.iter().all(|x| *x > 0.0) || turns.iter().all(|x| *x < 0.0)
+    turns.iter().all(|x| *x > rounding) || turns.iter().all(|x| *x < -rounding)
+}
+
+/// How many roundings of the largest coordinate a volume can be wrong by, over the square of the extent.
+const VOLUME_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// How often the surface winds around `p` (van Oosterom and Strackee, 1983): 1 inside, 0 outside, whatever single faces are like.
+pub(super) fn winding_number(mesh: &TriangleMesh, p: Point) -> f64 {
+    let solid_angle = |k: usize| {
+        let [a, b, c] = mesh.triangle(k).map(|v| v - p);
+        let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
+        let below = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
+        a.dot(&b.cross(&c)).atan2(below)
+    };
+    (0..mesh.faces.len()).map(solid_angle).sum::<f64>() / std::f64::consts::TAU
 }
 
 /// The angles of a triangle in radians.
@@ -185,6 +204,10 @@ mod tests {
     #[test]
     fn surfaces_are_counted() {
         let ball = sphere(Point::origin(), 1.0, 3);
+        for (p, expected) in [([0.1, 0.2, 0.3], 1.0), ([1.0, 0.2, 0.3], 0.0)] {
+            assert!((winding_number(&ball, p.into()) - expected).abs() < 1e-12);
+            assert!((winding_number(&ball.reversed(), p.into()) + expected).abs() < 1e-12);
+        }
         let one = topology(&ball);
         assert_eq!((one.vertices, one.faces, one.euler_characteristic), (38, 72, 2));
         assert_eq!((one.components, one.boundary_loops, one.nonmanifold_edges), (1, 0, 0));
@@ -213,7 +236,7 @@ mod tests {
         assert!(!pairs.is_empty() && pairs.iter().all(|(f, g)| *f < n && *g >= n));
         // A vertex pulled through the other side takes its faces through those there.
         let mut pulled = ball.clone();
-        pulled.points[0] *= -1.3;
+        pulled.points[0] = Point::from(pulled.points[0].coords * -1.3 + Vector::new(0.01, 0.02, 0.03));
         assert!(self_intersections(&pulled).len() >= 4);
     }
 

@@ -119,7 +119,8 @@ fn leaves(field: &(impl Fn(Point) -> Sample + Sync), grid: &Grid, high: Point) -
     let longest = sides.max();
     // One corner more than cells must have a number.
     let limit = f64::from(LONGEST_SIDE - 2);
-    if !(longest < limit) {
+    // Also where it is infinite or no number.
+    if !longest.is_finite() || longest >= limit {
         return Err(VolumeError::TooFine { voxel, suggestion: voxel * longest / limit * 1.1 });
     }
     let counts = [0, 1, 2].map(|k| sides[k].ceil().max(1.0) as u32);

@@ -80,7 +80,9 @@ pub fn volumetric_close(mesh: &TriangleMesh, radius: f64, voxel: f64) -> Result<
     let grow = crate::mesh::Vector::repeat(margin);
     let bounds = [low - grow, high + grow];
     let outward = |p: Point| {
-        let Some(s) = solid.signed(p, f64::INFINITY) else { return Sample { value: f64::INFINITY, gradient: p - p } };
+        let Some(s) = solid.signed(p, f64::INFINITY) else {
+            return Sample { value: f64::INFINITY, gradient: crate::mesh::Vector::zeros() };
+        };
         let gradient = (p - s.nearest) * s.distance.signum();
         Sample {
             value: s.distance - radius,
@@ -92,7 +94,7 @@ pub fn volumetric_close(mesh: &TriangleMesh, radius: f64, voxel: f64) -> Result<
     let sheet = Solid::new(&offset);
     let inward = |p: Point| {
         let Some(near) = sheet.hierarchy().nearest(p, f64::INFINITY) else {
-            return Sample { value: f64::NEG_INFINITY, gradient: p - p };
+            return Sample { value: f64::NEG_INFINITY, gradient: crate::mesh::Vector::zeros() };
         };
         let is_dilated = solid.hierarchy().is_nearer(p, radius) || solid.distance(p) < 0.0;
         let away = (p - near.point).try_normalize(0.0).unwrap_or(sheet.face_normal(near.face));
