@@ -1,9 +1,9 @@
 //! Surfaces mended where there is no choice to make.
 
+use super::PolygonMesh;
 use super::clean::{Worth, worths};
-use super::topology::{Edges, Joined, ends};
-use super::validate::unusable;
-use super::{PolygonMesh, Problem, problems};
+use super::topology::{Edges, Joined, ends, have_neighbours, without_area};
+use super::validate::{triangles_of, unusable};
 
 /// Something that was mended. Vertices and polygons have the numbers that they had before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,10 +51,10 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
     }
     let mut worths = worths(&mesh);
     let mut repairs = vec![];
-    for problem in problems(&mesh) {
-        if let Problem::ZeroArea { polygon, is_alone: true } = problem {
-            worths[polygon as usize] = Worth::Nothing(0);
-        }
+    let whole = triangles_of(&mesh, &worths);
+    let have_neighbours = have_neighbours(&whole, &Edges::new(&whole), mesh.polygon_count());
+    for polygon in without_area(&whole).into_iter().filter(|k| !have_neighbours[*k as usize]) {
+        worths[polygon as usize] = Worth::Nothing(0);
     }
     let mut kept = PolygonMesh::new(mesh.points.clone());
     let mut old: Vec<u32> = vec![];
