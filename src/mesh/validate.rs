@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::clean::{Worth, worths};
-use super::intersect::at_most;
+use super::intersect::all;
 use super::topology::{Edges, Joined, ends, have_neighbours, without_area};
 use super::{Hierarchy, Point, PolygonMesh, Problem, TriangleMesh};
 
@@ -13,7 +13,7 @@ const NO_VOLUME: f64 = 1e-12;
 /// No more than so many pairs of faces that pass through each other are looked for.
 pub const MOST_INTERSECTIONS: usize = 10_000;
 
-/// All problems of a surface, in the order of [`Problem`]'s variants; where corners are no vertices or coordinates not finite,
+/// All problems of a surface, kind by kind; where corners are no vertices or coordinates not finite,
 /// these alone.
 ///
 /// What [`repair`](super::repair) leaves out (duplicates, faces without three different corners) is named, but does not count
@@ -78,6 +78,11 @@ pub(super) fn unusable(mesh: &PolygonMesh) -> Vec<Problem> {
 
 /// The problems of triangles as a surface.
 fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem>) {
+    for (&[a, b, c], &polygon) in mesh.faces.iter().zip(&mesh.parents) {
+        if a == b || b == c || c == a {
+            problems.push(Problem::Tangled { polygon, vertex: if b == c { b } else { a } });
+        }
+    }
     let edges = Edges::new(mesh);
     let parent = |h: u32| mesh.parents[h as usize / 3];
     let mut components = Joined::new(polygon_count);
@@ -87,7 +92,7 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     let mut boundary_edges: Vec<u32> = vec![];
     let mut is_closed = vec![true; polygon_count];
     let mut is_oriented = vec![true; polygon_count];
-    let mut inconsistent = vec![];
+    let mut inconsistent: Vec<[u32; 2]> = vec![];
     for group in edges.groups() {
         let first = group[0].1;
         for &(_, h) in &group[1..] {
@@ -108,7 +113,7 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
                 let is_against = ends(mesh, g)[0] == ends(mesh, h)[0];
                 let (p, q) = (parent(g), parent(h));
                 if is_against {
-                    inconsistent.push(Problem::Inconsistent { polygon: p.min(q), neighbour: p.max(q) });
+                    inconsistent.push([p.min(q), p.max(q)]);
                     is_closed[p as usize] = false;
                 }
                 if !components.join(p, q, is_against) {
@@ -123,9 +128,11 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
         }
     }
     non_manifold_vertices(mesh, &mut fans, problems);
-    problems.extend(inconsistent);
     // What holds for one polygon holds for its component.
     let one_sided = gathered(&is_oriented, &mut components);
+    inconsistent.retain(|&[p, _]| one_sided.binary_search(&components.find(p).0).is_err());
+    let pair = |[polygon, neighbour]: [u32; 2]| Problem::Inconsistent { polygon, neighbour };
+    problems.extend(inconsistent.into_iter().map(pair));
     problems.extend(one_sided.iter().map(|&polygon| Problem::OneSided { polygon }));
     let open = gathered(&is_closed, &mut components);
     inside_out(mesh, &mut components, &open, problems);
@@ -137,7 +144,7 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     let zero = |polygon: u32| Problem::ZeroArea { polygon, is_alone: !has_neighbour[polygon as usize] };
     problems.extend(without_area(mesh).into_iter().map(zero));
     let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
-    let pairs = at_most(mesh, &hierarchy, 0..mesh.faces.len() as u32, MOST_INTERSECTIONS);
+    let pairs = all(mesh, &hierarchy, MOST_INTERSECTIONS);
     let mut pairs: Vec<[u32; 2]> = pairs
         .iter()
         .map(|&(f, g)| [mesh.parents[f as usize], mesh.parents[g as usize]])

@@ -95,7 +95,8 @@ fn what_is_degenerate_or_there_twice_is_dropped() {
             Repair::DroppedVertex { vertex: 8 },
         ]
     );
-    let with_scalars = PolygonMesh { scalars: (0..8).map(f64::from).collect(), ..cube() };
+    let mut with_scalars = cube();
+    with_scalars.scalars = (0..8).map(f64::from).collect();
     assert_eq!(repaired, with_scalars);
 }
 
@@ -203,8 +204,7 @@ fn a_strip_of_moebius_has_one_side() {
     }
     mesh.push(&[2 * n - 2, 1, 0, 2 * n - 1]);
     let found = problems(&mesh);
-    assert!(found.contains(&Problem::OneSided { polygon: 0 }), "{found:?}");
-    assert!(found.contains(&Problem::Boundary { vertex: 0, edges: 2 * n }), "{found:?}");
+    assert_eq!(found, [Problem::OneSided { polygon: 0 }, Problem::Boundary { vertex: 0, edges: 2 * n }]);
     let (same, repairs) = repair(mesh.clone());
     assert_eq!((same, repairs), (mesh, vec![]));
 }
@@ -245,4 +245,18 @@ fn surfaces_that_pass_through_each_other_are_named_by_their_polygons() {
     }
     // The faces that look to each other's corner, each with three of the other cube, but for parallel ones.
     assert_eq!(found.len(), 6);
+}
+
+#[test]
+fn a_polygon_that_comes_back_to_a_corner_is_tangled_or_has_a_hole() {
+    let mut tangled = PolygonMesh::new(vec![Point::origin(); 4]);
+    tangled.push(&[0, 1, 0, 2, 3]);
+    let found = problems(&tangled);
+    assert!(found.contains(&Problem::Tangled { polygon: 0, vertex: 0 }), "{found:?}");
+    // A square with a square hole, cut open between the two.
+    let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0], [1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]];
+    let mut ring = PolygonMesh::new(corners.map(|p| Point::new(p[0], p[1], 0.0)).to_vec());
+    ring.push(&[0, 1, 2, 3, 0, 4, 7, 6, 5, 4]);
+    assert_eq!(problems(&ring), [Problem::Boundary { vertex: 0, edges: 4 }, Problem::Boundary { vertex: 4, edges: 4 }]);
+    assert!((ring.triangulated().area() - 8.0).abs() < 1e-12);
 }
