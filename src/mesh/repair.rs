@@ -1,6 +1,6 @@
 //! Surfaces mended where there is no choice to make.
 
-use super::clean::{Worth, worths};
+use super::clean::{Worth, shortened, worths};
 use super::topology::{Edges, Joined, ends, have_neighbours, without_area};
 use super::validate::{triangles_of, unusable};
 use super::{PolygonMesh, TriangleMesh};
@@ -61,7 +61,14 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
     let mut old: Vec<u32> = vec![];
     for (worth, polygon) in worths.iter().zip(0u32..) {
         match worth {
-            Worth::Whole | Worth::Turned(_) => kept.push(mesh.polygon(polygon as usize)),
+            Worth::Whole => kept.push(mesh.polygon(polygon as usize)),
+            Worth::Turned(_) => match shortened(mesh.polygon(polygon as usize)) {
+                Worth::Shorter(vertex, left) => {
+                    repairs.push(Repair::DroppedCorner { polygon, vertex });
+                    kept.push(&left);
+                }
+                _ => kept.push(mesh.polygon(polygon as usize)),
+            },
             Worth::Shorter(vertex, left) => {
                 repairs.push(Repair::DroppedCorner { polygon, vertex: *vertex });
                 kept.push(left);

@@ -250,7 +250,7 @@ fn surfaces_that_pass_through_each_other_are_named_by_their_polygons() {
 #[test]
 fn a_polygon_that_comes_back_to_a_corner_is_tangled_or_has_a_hole() {
     let mut tangled = PolygonMesh::new(vec![Point::origin(); 4]);
-    tangled.push(&[0, 1, 0, 2, 3]);
+    tangled.push(&[1, 0, 2, 0, 3]);
     let found = problems(&tangled);
     assert!(found.contains(&Problem::Tangled { polygon: 0, vertex: 0 }), "{found:?}");
     // A square with a square hole, cut open between the two.
