@@ -7,7 +7,7 @@ use std::fmt;
 pub enum Severity {
     /// A surface may be so.
     Allowed,
-    /// [`repair`](super::repair) mends it without a choice to make.
+    /// [`repair`](super::repair()) mends it without a choice to make.
     Repairable,
     /// It needs someone who knows what was meant.
     Refused,

@@ -16,7 +16,7 @@ pub const MOST_INTERSECTIONS: usize = 10_000;
 /// All problems of a surface, kind by kind; where corners are no vertices or coordinates not finite,
 /// these alone.
 ///
-/// What [`repair`](super::repair) leaves out (duplicates, faces without three different corners) is named, but does not count
+/// What [`repair`](super::repair()) leaves out (duplicates, faces without three different corners) is named, but does not count
 /// for what follows: it makes no edge non-manifold.
 pub fn problems(mesh: &PolygonMesh) -> Vec<Problem> {
     let mut problems = unusable(mesh);
