@@ -64,7 +64,7 @@ pub(super) fn worths(mesh: &PolygonMesh) -> Vec<Worth> {
 }
 
 /// What is left of a polygon without corners that follow themselves.
-fn shortened(polygon: &[u32]) -> Worth {
+pub(super) fn shortened(polygon: &[u32]) -> Worth {
     let n = polygon.len();
     let repeated = (0..n).find(|&k| polygon[k] == polygon[(k + 1) % n]);
     let Some(k) = repeated else {

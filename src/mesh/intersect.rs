@@ -20,7 +20,7 @@ const OVERLAP: f64 = 1e-6;
 /// faces only touches. Triangles without area cross nothing.
 pub fn self_intersections(mesh: &TriangleMesh) -> Vec<(u32, u32)> {
     let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
-    self_intersections_of(mesh, &hierarchy, 0..mesh.faces.len() as u32)
+    all(mesh, &hierarchy, usize::MAX)
 }
 
 /// The pairs of faces that pass through each other of which at least one is among `faces`; `hierarchy` is that of all faces of
@@ -30,21 +30,27 @@ pub fn self_intersections_of(
     hierarchy: &Hierarchy,
     faces: impl IntoIterator<Item = u32>,
 ) -> Vec<(u32, u32)> {
-    at_most(mesh, hierarchy, faces, usize::MAX)
+    pairs(mesh, hierarchy, faces, usize::MAX, |f, g| f != g)
 }
 
-/// The same, but no more than so many pairs for all faces together, counting those that are met from both sides twice.
-pub(super) fn at_most(
+/// All pairs, or as many as were found first.
+pub(super) fn all(mesh: &TriangleMesh, hierarchy: &Hierarchy, most: usize) -> Vec<(u32, u32)> {
+    // Each pair from its lower face alone.
+    pairs(mesh, hierarchy, 0..mesh.faces.len() as u32, most, |f, g| f < g)
+}
+
+fn pairs(
     mesh: &TriangleMesh,
     hierarchy: &Hierarchy,
     faces: impl IntoIterator<Item = u32>,
     most: usize,
+    is_asked: impl Fn(u32, u32) -> bool,
 ) -> Vec<(u32, u32)> {
     let mut pairs = vec![];
     for f in faces {
         let [a, b, c] = mesh.triangle(f as usize);
         let is_full = hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |g| {
-            if g != f && cross([a, b, c], mesh.triangle(g as usize)) {
+            if is_asked(f, g) && cross([a, b, c], mesh.triangle(g as usize)) {
                 pairs.push((f.min(g), f.max(g)));
             }
             pairs.len() >= most
@@ -227,6 +233,6 @@ mod tests {
         let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
         assert_eq!(self_intersections_of(&mesh, &hierarchy, [3, 1]), [(0, 3)]);
         assert_eq!(self_intersections_of(&mesh, &hierarchy, [0, 2]), [(0, 2), (0, 3), (0, 4)]);
-        assert_eq!(at_most(&mesh, &hierarchy, [0, 2], 1).len(), 1);
+        assert_eq!(all(&mesh, &hierarchy, 2).len(), 2);
     }
 }

@@ -7,7 +7,7 @@ use std::fmt;
 pub enum Severity {
     /// A surface may be so.
     Allowed,
-    /// [`repair`](super::repair) mends it without a choice to make.
+    /// [`repair`](super::repair()) mends it without a choice to make.
     Repairable,
     /// It needs someone who knows what was meant.
     Refused,
@@ -33,6 +33,13 @@ pub enum Problem {
     /// A corner that follows itself, or a polygon of fewer than three different corners.
     RepeatedCorner {
         /// Whose corner.
+        polygon: u32,
+        /// The corner.
+        vertex: u32,
+    },
+    /// A polygon that comes back to a corner so that one of its triangles has that corner twice.
+    Tangled {
+        /// Which one.
         polygon: u32,
         /// The corner.
         vertex: u32,
@@ -127,6 +134,7 @@ impl Problem {
             Problem::Empty
             | Problem::NoSuchVertex { .. }
             | Problem::NotFinite { .. }
+            | Problem::Tangled { .. }
             | Problem::TurnedDuplicate { .. }
             | Problem::NonManifoldEdge { .. }
             | Problem::NonManifoldVertex { .. }
@@ -145,6 +153,9 @@ impl fmt::Display for Problem {
             }
             Problem::NotFinite { vertex } => write!(f, "vertex {vertex} has a coordinate that is not finite"),
             Problem::RepeatedCorner { polygon, vertex } => write!(f, "face {polygon} repeats its corner {vertex}"),
+            Problem::Tangled { polygon, vertex } => {
+                write!(f, "face {polygon} comes back to its corner {vertex}: cut it into simple faces")
+            }
             Problem::Duplicate { polygon, of } => write!(f, "face {polygon} is face {of} again"),
             Problem::TurnedDuplicate { polygon, of } => {
                 write!(f, "face {polygon} is face {of} turned over: remove one of them, or both")

@@ -1,9 +1,9 @@
 //! Surfaces mended where there is no choice to make.
 
-use super::clean::{Worth, worths};
-use super::topology::{Edges, Joined, ends};
-use super::validate::unusable;
-use super::{PolygonMesh, Problem, problems};
+use super::clean::{Worth, shortened, worths};
+use super::topology::{Edges, Joined, ends, have_neighbours, without_area};
+use super::validate::{triangles_of, unusable};
+use super::{PolygonMesh, TriangleMesh};
 
 /// Something that was mended. Vertices and polygons have the numbers that they had before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,16 +51,24 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
     }
     let mut worths = worths(&mesh);
     let mut repairs = vec![];
-    for problem in problems(&mesh) {
-        if let Problem::ZeroArea { polygon, is_alone: true } = problem {
-            worths[polygon as usize] = Worth::Nothing(0);
-        }
+    let whole = triangles_of(&mesh, &worths);
+    let have_neighbours = have_neighbours(&whole, &Edges::new(&whole), mesh.polygon_count());
+    for polygon in without_area(&whole).into_iter().filter(|k| !have_neighbours[*k as usize]) {
+        worths[polygon as usize] = Worth::Nothing(0);
     }
+    let is_reversed = reversed(&triangles_of(&mesh, &worths), &worths);
     let mut kept = PolygonMesh::new(mesh.points.clone());
     let mut old: Vec<u32> = vec![];
     for (worth, polygon) in worths.iter().zip(0u32..) {
         match worth {
-            Worth::Whole | Worth::Turned(_) => kept.push(mesh.polygon(polygon as usize)),
+            Worth::Whole => kept.push(mesh.polygon(polygon as usize)),
+            Worth::Turned(_) => match shortened(mesh.polygon(polygon as usize)) {
+                Worth::Shorter(vertex, left) => {
+                    repairs.push(Repair::DroppedCorner { polygon, vertex });
+                    kept.push(&left);
+                }
+                _ => kept.push(mesh.polygon(polygon as usize)),
+            },
             Worth::Shorter(vertex, left) => {
                 repairs.push(Repair::DroppedCorner { polygon, vertex: *vertex });
                 kept.push(left);
@@ -72,7 +80,6 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
             old.push(polygon);
         }
     }
-    let is_reversed = reversed(&kept);
     let mut is_used = vec![false; mesh.points.len()];
     kept.polygons().flatten().for_each(|v| is_used[*v as usize] = true);
     let mut number = vec![0u32; mesh.points.len()];
@@ -93,7 +100,7 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
     (result.colours, result.scalars) = (colours, scalars);
     for (k, polygon) in kept.polygons().enumerate() {
         let mut corners: Vec<u32> = polygon.iter().map(|v| number[*v as usize]).collect();
-        if is_reversed[k] {
+        if is_reversed[old[k] as usize] {
             // From the same corner, the other way round.
             corners[1..].reverse();
             repairs.push(Repair::Reversed { polygon: old[k] });
@@ -105,15 +112,14 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
 }
 
 /// The polygons that must be reversed for each component to be consistent.
-fn reversed(mesh: &PolygonMesh) -> Vec<bool> {
-    let triangles = mesh.triangulated();
-    let count = mesh.polygon_count();
+fn reversed(triangles: &TriangleMesh, worths: &[Worth]) -> Vec<bool> {
+    let count = worths.len();
     let mut components = Joined::new(count);
     let mut one_sided = vec![];
-    for group in Edges::new(&triangles).groups() {
+    for group in Edges::new(triangles).groups() {
         let &[(_, g), (_, h)] = group else { continue };
         let (p, q) = (triangles.parents[g as usize / 3], triangles.parents[h as usize / 3]);
-        if !components.join(p, q, ends(&triangles, g)[0] == ends(&triangles, h)[0]) {
+        if !components.join(p, q, ends(triangles, g)[0] == ends(triangles, h)[0]) {
             one_sided.push(p);
         }
     }
@@ -127,5 +133,12 @@ fn reversed(mesh: &PolygonMesh) -> Vec<bool> {
         // The root is the first polygon and even.
         if odd > even { !is_odd } else { is_odd && odd > 0 }
     };
-    places.iter().map(is_reversed).collect()
+    let mut reversed: Vec<bool> = places.iter().map(is_reversed).collect();
+    for (k, worth) in worths.iter().enumerate() {
+        // What is another polygon turned over remains so.
+        if let Worth::Turned(of) = worth {
+            reversed[k] = reversed[*of as usize];
+        }
+    }
+    reversed
 }

@@ -2,6 +2,10 @@
 
 use super::TriangleMesh;
 
+/// A triangle is without area where twice its area is not above this times the square of its longest edge: its normal would
+/// be rounding.
+const NO_AREA: f64 = 1e-14;
+
 /// Sets of numbers that are joined, each with a parity against its set.
 pub(super) struct Joined {
     parent: Vec<u32>,
@@ -71,4 +75,28 @@ impl Edges {
 pub(super) fn ends(mesh: &TriangleMesh, h: u32) -> [u32; 2] {
     let face = mesh.faces[h as usize / 3];
     [face[h as usize % 3], face[(h as usize + 1) % 3]]
+}
+
+/// Which polygons have another one at an edge.
+pub(super) fn have_neighbours(mesh: &TriangleMesh, edges: &Edges, polygon_count: usize) -> Vec<bool> {
+    let mut have = vec![false; polygon_count];
+    let parent = |&(_, h): &(u64, u32)| mesh.parents[h as usize / 3];
+    for group in edges.groups() {
+        if group.iter().any(|h| parent(h) != parent(&group[0])) {
+            group.iter().for_each(|h| have[parent(h) as usize] = true);
+        }
+    }
+    have
+}
+
+/// The polygons of which a triangle has no normal, in order.
+pub(super) fn without_area(mesh: &TriangleMesh) -> Vec<u32> {
+    let is_flat = |f: &usize| {
+        let [a, b, c] = mesh.triangle(*f);
+        let longest2 = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
+        mesh.area_vector(*f).norm() <= NO_AREA * longest2
+    };
+    let mut flat: Vec<u32> = (0..mesh.faces.len()).filter(is_flat).map(|f| mesh.parents[f]).collect();
+    flat.dedup();
+    flat
 }

@@ -3,13 +3,9 @@
 use std::f64::consts::PI;
 
 use super::clean::{Worth, worths};
-use super::intersect::at_most;
-use super::topology::{Edges, Joined, ends};
+use super::intersect::all;
+use super::topology::{Edges, Joined, ends, have_neighbours, without_area};
 use super::{Hierarchy, Point, PolygonMesh, Problem, TriangleMesh};
-
-/// A triangle is without area where twice its area is below this times the square of its longest edge: its normal would be
-/// rounding.
-const NO_AREA: f64 = 1e-14;
 
 /// A component is inside out where its volume is below minus this times the cube of its diagonal: flat ones are neither.
 const NO_VOLUME: f64 = 1e-12;
@@ -17,10 +13,10 @@ const NO_VOLUME: f64 = 1e-12;
 /// No more than so many pairs of faces that pass through each other are looked for.
 pub const MOST_INTERSECTIONS: usize = 10_000;
 
-/// All problems of a surface, in the order of [`Problem`]'s variants; where corners are no vertices or coordinates not finite,
+/// All problems of a surface, kind by kind; where corners are no vertices or coordinates not finite,
 /// these alone.
 ///
-/// What [`repair`](super::repair) leaves out (duplicates, faces without three different corners) is named, but does not count
+/// What [`repair`](super::repair()) leaves out (duplicates, faces without three different corners) is named, but does not count
 /// for what follows: it makes no edge non-manifold.
 pub fn problems(mesh: &PolygonMesh) -> Vec<Problem> {
     let mut problems = unusable(mesh);
@@ -29,23 +25,14 @@ pub fn problems(mesh: &PolygonMesh) -> Vec<Problem> {
     }
     let worths = worths(mesh);
     let mut is_used = vec![false; mesh.points.len()];
-    let mut cleaned = PolygonMesh::new(mesh.points.clone());
-    // The polygon that each one of the cleaned mesh was.
-    let mut old: Vec<u32> = vec![];
     let mut again = vec![];
     for (worth, polygon) in worths.iter().zip(0u32..) {
         match worth {
-            Worth::Whole => cleaned.push(mesh.polygon(polygon as usize)),
-            Worth::Shorter(vertex, left) => {
-                problems.push(Problem::RepeatedCorner { polygon, vertex: *vertex });
-                cleaned.push(left);
-            }
+            Worth::Whole => {}
+            Worth::Shorter(vertex, _) => problems.push(Problem::RepeatedCorner { polygon, vertex: *vertex }),
             Worth::Nothing(vertex) => problems.push(Problem::RepeatedCorner { polygon, vertex: *vertex }),
             Worth::Again(of) => again.push(Problem::Duplicate { polygon, of: *of }),
             Worth::Turned(of) => again.push(Problem::TurnedDuplicate { polygon, of: *of }),
-        }
-        if cleaned.polygon_count() > old.len() {
-            old.push(polygon);
         }
         if worth.is_kept() {
             mesh.polygon(polygon as usize).iter().for_each(|v| is_used[*v as usize] = true);
@@ -54,12 +41,25 @@ pub fn problems(mesh: &PolygonMesh) -> Vec<Problem> {
     again.sort_by_key(|p| matches!(p, Problem::TurnedDuplicate { .. }));
     problems.extend(again);
     problems.extend((0u32..).zip(&is_used).filter(|(_, used)| !**used).map(|(vertex, _)| Problem::Unused { vertex }));
-    let mut triangles = cleaned.triangulated();
-    for parent in &mut triangles.parents {
-        *parent = old[*parent as usize];
-    }
-    surface(&triangles, mesh.polygon_count(), &mut problems);
+    surface(&triangles_of(mesh, &worths), mesh.polygon_count(), &mut problems);
     problems
+}
+
+/// The triangles of all polygons that count, with the polygons of the whole mesh as parents.
+pub(super) fn triangles_of(mesh: &PolygonMesh, worths: &[Worth]) -> TriangleMesh {
+    let mut cleaned = PolygonMesh::new(mesh.points.clone());
+    let mut old = vec![];
+    for (worth, polygon) in worths.iter().zip(0u32..) {
+        match worth {
+            Worth::Whole => cleaned.push(mesh.polygon(polygon as usize)),
+            Worth::Shorter(_, left) => cleaned.push(left),
+            _ => continue,
+        }
+        old.push(polygon);
+    }
+    let mut triangles = cleaned.triangulated();
+    triangles.parents.iter_mut().for_each(|parent| *parent = old[*parent as usize]);
+    triangles
 }
 
 /// What makes all further questions pointless.
@@ -78,6 +78,11 @@ pub(super) fn unusable(mesh: &PolygonMesh) -> Vec<Problem> {
 
 /// The problems of triangles as a surface.
 fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem>) {
+    for (&[a, b, c], &polygon) in mesh.faces.iter().zip(&mesh.parents) {
+        if a == b || b == c || c == a {
+            problems.push(Problem::Tangled { polygon, vertex: if b == c { b } else { a } });
+        }
+    }
     let edges = Edges::new(mesh);
     let parent = |h: u32| mesh.parents[h as usize / 3];
     let mut components = Joined::new(polygon_count);
@@ -87,8 +92,7 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     let mut boundary_edges: Vec<u32> = vec![];
     let mut is_closed = vec![true; polygon_count];
     let mut is_oriented = vec![true; polygon_count];
-    let mut has_neighbour = vec![false; polygon_count];
-    let mut inconsistent = vec![];
+    let mut inconsistent: Vec<[u32; 2]> = vec![];
     for group in edges.groups() {
         let first = group[0].1;
         for &(_, h) in &group[1..] {
@@ -97,10 +101,6 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
             let (at_start, at_end) = if same_way { (h, next(h)) } else { (next(h), h) };
             fans.join(first, at_start, false);
             fans.join(next(first), at_end, false);
-            if parent(h) != parent(first) {
-                has_neighbour[parent(h) as usize] = true;
-                has_neighbour[parent(first) as usize] = true;
-            }
         }
         match *group {
             [(_, h)] => {
@@ -113,7 +113,7 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
                 let is_against = ends(mesh, g)[0] == ends(mesh, h)[0];
                 let (p, q) = (parent(g), parent(h));
                 if is_against {
-                    inconsistent.push(Problem::Inconsistent { polygon: p.min(q), neighbour: p.max(q) });
+                    inconsistent.push([p.min(q), p.max(q)]);
                     is_closed[p as usize] = false;
                 }
                 if !components.join(p, q, is_against) {
@@ -128,10 +128,11 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
         }
     }
     non_manifold_vertices(mesh, &mut fans, problems);
-    problems.extend(inconsistent);
     // What holds for one polygon holds for its component.
-    let mut one_sided: Vec<u32> = gathered(&is_oriented, &mut components);
-    one_sided.dedup();
+    let one_sided = gathered(&is_oriented, &mut components);
+    inconsistent.retain(|&[p, _]| one_sided.binary_search(&components.find(p).0).is_err());
+    let pair = |[polygon, neighbour]: [u32; 2]| Problem::Inconsistent { polygon, neighbour };
+    problems.extend(inconsistent.into_iter().map(pair));
     problems.extend(one_sided.iter().map(|&polygon| Problem::OneSided { polygon }));
     let open = gathered(&is_closed, &mut components);
     inside_out(mesh, &mut components, &open, problems);
@@ -139,12 +140,11 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     loops.sort_unstable();
     let boundary = |edges: &[u32]| Problem::Boundary { vertex: edges[0], edges: edges.len() as u32 };
     problems.extend(loops.chunk_by(|a, b| a == b).map(boundary));
-    let mut flat: Vec<u32> = (0..mesh.faces.len()).filter(|&f| !has_area(mesh, f)).map(|f| mesh.parents[f]).collect();
-    flat.dedup();
+    let has_neighbour = have_neighbours(mesh, &edges, polygon_count);
     let zero = |polygon: u32| Problem::ZeroArea { polygon, is_alone: !has_neighbour[polygon as usize] };
-    problems.extend(flat.into_iter().map(zero));
+    problems.extend(without_area(mesh).into_iter().map(zero));
     let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
-    let pairs = at_most(mesh, &hierarchy, 0..mesh.faces.len() as u32, MOST_INTERSECTIONS);
+    let pairs = all(mesh, &hierarchy, MOST_INTERSECTIONS);
     let mut pairs: Vec<[u32; 2]> = pairs
         .iter()
         .map(|&(f, g)| [mesh.parents[f as usize], mesh.parents[g as usize]])
@@ -153,13 +153,6 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     pairs.sort_unstable();
     pairs.dedup();
     problems.extend(pairs.iter().map(|&[polygon, other]| Problem::SelfIntersection { polygon, other }));
-}
-
-/// Whether a triangle has a normal.
-fn has_area(mesh: &TriangleMesh, f: usize) -> bool {
-    let [a, b, c] = mesh.triangle(f);
-    let longest2 = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
-    mesh.area_vector(f).norm() > NO_AREA * longest2
 }
 
 /// The components of which a polygon is marked with false, in order.

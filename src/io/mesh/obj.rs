@@ -186,3 +186,16 @@ fn number(out: &mut String, x: f64) {
     // Writing to a string cannot fail.
     let _ = if size != 0.0 && !(1e-5..1e16).contains(&size) { write!(out, "{x:e}") } else { write!(out, "{x}") };
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_byte_of_a_colour_comes_back_from_obj() {
+        let mut mesh = PolygonMesh::new((0..256).map(|k| Point::new(f64::from(k), 0.0, 0.0)).collect());
+        mesh.push(&[0, 1, 2]);
+        mesh.colours = (0..=255).map(|k| [k, 255 - k, k / 2]).collect();
+        assert_eq!(read(&write(&mesh)).unwrap(), mesh);
+    }
+}

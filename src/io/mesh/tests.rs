@@ -51,14 +51,6 @@ fn obj_and_ply_give_back_every_bit() {
 }
 
 #[test]
-fn every_byte_of_a_colour_comes_back_from_obj() {
-    let mut mesh = PolygonMesh::new((0..256).map(|k| Point::new(f64::from(k), 0.0, 0.0)).collect());
-    mesh.push(&[0, 1, 2]);
-    mesh.colours = (0..=255).map(|k| [k, 255 - k, k / 2]).collect();
-    assert_eq!(read(&write(&mesh, MeshFormat::Obj), MeshFormat::Obj).unwrap(), mesh);
-}
-
-#[test]
 fn obj_is_read_in_all_its_ways() {
     let text = "\u{feff}# a comment \\\r\nmtllib C:\\x.mtl\r\no thing\r\nv 1 2 3\r\nv 4 5 6 1.0 # weight\r\n\
                 v 7 \\\r\n  8\\\r\n 9\r\n\r\nvn 0 0 1\r\nvt 0 0\r\nf 1/1/1 2//1 3/1\r\nv 1e3 -.5 +2.\r\ns off\r\nl 1 2\r\nf -1 -2 \\\r\n-3 -4\r\n\
