@@ -101,9 +101,6 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
         };
         let covering = cover(input, &ground, &field, options);
         let found = conflicts::find(&covering, options.threads);
-        if std::env::var_os("BALL").is_some() {
-            eprintln!("{} conflicts left", found.faces.len());
-        }
         let is_last = attempt == ATTEMPTS || found.faces.is_empty();
         if !is_last {
             for f in &found.faces {
@@ -141,22 +138,10 @@ fn cover<'a>(
     let mut roll = Roll { normals: input.vertex_normals(), threads: options.threads };
     // What the whole ball can touch, smaller ones can.
     let mut moving: Vec<u32> = roll.untouched(&covering, (0..input.points.len() as u32).collect());
-    let verbose = std::env::var_os("BALL").is_some();
     for (k, part) in LEVELS.iter().enumerate() {
         covering.part = *part;
-        let t = std::time::Instant::now();
         roll.advance(&mut covering, &mut moving);
-        let t1 = t.elapsed();
-        let last = k + 1 == LEVELS.len();
-        covering.remesh(if last { LAST_ROUNDS } else { ROUNDS });
-        if verbose {
-            eprintln!(
-                "level {part}: moved {} {:?} remesh {:?}",
-                covering.state.iter().filter(|s| **s != State::Kept).count(),
-                t1,
-                t.elapsed() - t1
-            );
-        }
+        covering.remesh(if k + 1 == LEVELS.len() { LAST_ROUNDS } else { ROUNDS });
     }
     covering
 }

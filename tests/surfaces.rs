@@ -1,0 +1,175 @@
+//! The closing of surfaces by a ball: exact cases, and what it leaves alone.
+
+#[allow(dead_code)]
+mod solids;
+
+use clopen::mesh::{HalfEdgeMesh, NONE, Point, PolygonMesh, TriangleMesh, self_intersections};
+use clopen::rolling::{ClosedSurface, SurfaceOptions, close_surface};
+
+const ANYWHERE: f64 = f64::INFINITY;
+
+fn close(mesh: &TriangleMesh, r: f64, edge: f64) -> ClosedSurface {
+    close_with(mesh, r, edge, 2, &|_| ANYWHERE)
+}
+
+fn close_with(
+    mesh: &TriangleMesh,
+    r: f64,
+    edge: f64,
+    threads: usize,
+    pin_distance: &(dyn Fn(Point) -> f64 + Sync),
+) -> ClosedSurface {
+    close_surface(mesh, &SurfaceOptions { radius: &|_| r, pin_distance, edge, threads }).unwrap()
+}
+
+fn triangles(mesh: &PolygonMesh) -> TriangleMesh {
+    mesh.triangulated()
+}
+
+/// What must hold of any result: a closed surface, with the input's vertices and faces where it says so, bit for bit.
+fn check(input: &TriangleMesh, closed: &ClosedSurface) {
+    let mesh = HalfEdgeMesh::new(closed.points.clone(), &closed.faces).unwrap();
+    let open = |m: &HalfEdgeMesh| (0..m.points.len() as u32).filter(|&v| m.is_boundary(v)).count();
+    let before = HalfEdgeMesh::new(input.points.clone(), &input.faces).unwrap();
+    assert_eq!(open(&mesh), open(&before));
+    let bits = |p: &Point| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()];
+    for (p, &v) in closed.points.iter().zip(&closed.origins) {
+        assert!(v == NONE || bits(p) == bits(&input.points[v as usize]));
+    }
+    let kept: Vec<u32> = closed.parents.iter().copied().filter(|&f| f != NONE).collect();
+    assert!(kept.is_sorted(), "faces stay in order");
+    for (face, &parent) in closed.faces.iter().zip(&closed.parents) {
+        if parent != NONE {
+            assert_eq!(face.map(|v| closed.origins[v as usize]), input.faces[parent as usize]);
+        }
+    }
+    let origins: Vec<u32> = closed.origins.iter().copied().filter(|&v| v != NONE).collect();
+    assert!(origins.is_sorted(), "vertices stay in order");
+}
+
+#[test]
+fn a_concave_edge_gets_a_fillet_of_the_radius() {
+    let input = triangles(&solids::bracket());
+    let r = 0.3;
+    let mut means = Vec::new();
+    for edge in [0.05, 0.025] {
+        let closed = close(&input, r, edge);
+        check(&input, &closed);
+        assert!(closed.conflicts.is_empty(), "{:?}", closed.conflicts.first());
+        // Away from the ends, where the ball rolls around the corner.
+        let inner = |p: &Point| p.z > 0.2 * r && p.z < 1.0 - 0.2 * r;
+        let off = |p: &Point| ((p.x - 0.8 - r).hypot(p.y - 0.8 - r) - r).abs() / edge;
+        let moved = closed.points.iter().zip(&closed.origins).filter(|(p, v)| **v == NONE && inner(p));
+        let mut on_fillet = 0;
+        for (p, _) in moved {
+            let is_flat = p.x < 0.8 + 1e-9 && p.y > 0.8 + r - 1e-6 || p.y < 0.8 + 1e-9 && p.x > 0.8 + r - 1e-6;
+            assert!(is_flat || off(p) < 0.02, "{p} is {} edges off", off(p));
+            on_fillet += usize::from(!is_flat);
+        }
+        assert!(on_fillet > 50);
+        // Faces are chords of it.
+        let new = closed.faces.iter().zip(&closed.parents).filter(|(_, parent)| **parent == NONE);
+        let centers = new.map(|(f, _)| {
+            Point::from(f.iter().map(|&v| closed.points[v as usize].coords).sum::<nalgebra::Vector3<f64>>() / 3.0)
+        });
+        let offs: Vec<f64> = centers
+            .filter(|p| inner(p) && p.x > 0.8 + 0.1 * edge && p.y > 0.8 + 0.1 * edge)
+            .filter(|p| p.x < 0.8 + 0.9 * r && p.y < 0.8 + 0.9 * r)
+            .map(|p| off(&p))
+            .collect();
+        means.push(offs.iter().sum::<f64>() / offs.len() as f64 * edge);
+        assert!(offs.iter().all(|o| *o < 0.05), "{:?}", offs.iter().copied().fold(0.0, f64::max));
+    }
+    assert!(means[1] < 0.4 * means[0], "the error falls with the square of the edge: {means:?}");
+}
+
+#[test]
+fn the_neck_between_two_balls_is_a_piece_of_a_torus() {
+    let input = triangles(&solids::two_spheres());
+    let (r, edge) = (0.5, 0.08);
+    let closed = close(&input, r, edge);
+    check(&input, &closed);
+    assert!(closed.conflicts.is_empty());
+    // The ball rests on both: its centre is 1.5 from both centres, which are .7 from the plane between.
+    let rho = (1.5f64 * 1.5 - 0.7 * 0.7).sqrt();
+    let moved: Vec<&Point> = closed
+        .points
+        .iter()
+        .zip(&closed.origins)
+        .filter(|(p, v)| **v == NONE && p.x.abs() < 0.1)
+        .map(|(p, _)| p)
+        .collect();
+    assert!(moved.len() > 20);
+    for p in moved {
+        let off = (p.x.hypot(p.y.hypot(p.z) - rho) - r).abs();
+        // The spheres are polyhedra of 48 sides, which stand back by their sagitta.
+        assert!(off < 0.01, "{p}: {off}");
+    }
+}
+
+#[test]
+fn what_is_convex_comes_out_bit_for_bit() {
+    let sphere = {
+        let steps = 20;
+        let profile: Vec<[f64; 2]> = (0..=steps)
+            .map(|k| std::f64::consts::PI * f64::from(k) / f64::from(steps))
+            .map(|t| [-t.cos(), t.sin()])
+            .collect();
+        solids::revolved(&profile, 30)
+    };
+    let cube = solids::blocks([4, 4, 4], 0.25, |_| true);
+    for mesh in [solids::capsule(), sphere, cube] {
+        let input = triangles(&mesh);
+        for r in [0.05, 0.3, 2.0] {
+            let closed = close(&input, r, r / 6.0);
+            assert_eq!((closed.points, closed.faces), (input.points.clone(), input.faces.clone()));
+            assert!(closed.conflicts.is_empty() && closed.error == 0.0);
+        }
+    }
+}
+
+#[test]
+fn the_result_does_not_hang_on_the_threads() {
+    let input = triangles(&solids::plus());
+    let [one, two, five] = [1, 2, 5].map(|threads| close_with(&input, 0.3, 0.05, threads, &|_| ANYWHERE));
+    for other in [two, five] {
+        assert_eq!(one.points, other.points);
+        assert_eq!((&one.faces, &one.parents, &one.origins), (&other.faces, &other.parents, &other.origins));
+    }
+}
+
+#[test]
+fn a_closing_contains_its_input_and_does_not_cross_itself() {
+    for (name, mesh) in solids::all() {
+        let input = triangles(&mesh);
+        let r = 0.04 * input.diagonal();
+        let closed = close(&input, r, r / 6.0);
+        check(&input, &closed);
+        let result = TriangleMesh::new(closed.points.clone(), closed.faces.clone());
+        assert!(result.volume() >= input.volume() * (1.0 - 1e-9), "{name}");
+        assert_eq!(self_intersections(&result).len(), self_intersections(&input).len(), "{name}");
+    }
+}
+
+#[test]
+fn what_is_pinned_stays_and_the_rest_is_closed() {
+    let input = triangles(&solids::bracket());
+    let pinned = |p: Point| (p.z - 0.4).max(0.0);
+    let closed = close_with(&input, 0.3, 0.05, 2, &pinned);
+    check(&input, &closed);
+    let moved: Vec<f64> =
+        closed.points.iter().zip(&closed.origins).filter(|(_, v)| **v == NONE).map(|(p, _)| p.z).collect();
+    assert!(moved.iter().all(|z| *z >= 0.4), "{:?}", moved.iter().copied().fold(f64::INFINITY, f64::min));
+    assert!(moved.iter().any(|z| *z > 0.8));
+}
+
+#[test]
+fn a_gap_that_the_ball_would_tear_is_told_and_left_alone() {
+    // Two plates with a gap that is open on three sides, joined along the fourth.
+    let input = triangles(&solids::blocks([16, 16, 10], 0.1, |[x, _, z]| x < 3 || z < 4 || z > 5));
+    let closed = close(&input, 0.3, 0.05);
+    check(&input, &closed);
+    let result = TriangleMesh::new(closed.points.clone(), closed.faces.clone());
+    assert!(result.volume() >= input.volume() * (1.0 - 1e-9));
+    assert!(!closed.conflicts.is_empty(), "a gap open on three sides has no closing without a tear");
+}
