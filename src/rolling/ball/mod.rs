@@ -20,8 +20,12 @@ use covering::{Covering, State};
 
 use crate::mesh::{HalfEdgeMesh, Hierarchy, NotManifold, Point, TriangleMesh, Vector};
 
-/// Radii on the way, as parts of the last.
-const LEVELS: [f64; 3] = [0.25, 0.5, 1.0];
+/// The radius grows by this factor from level to level, beginning above so many edge lengths.
+///
+/// The nearest centre jumps where two families of balls are equally near, and what lies between is reached by splitting the
+/// edges that it stretches: the more radii on the way, the less there is between.
+const GROWTH: f64 = 1.5;
+const FIRST_RADIUS: f64 = 1.0;
 
 /// Balls that are nearer to the input than their radius by less than this part of it touch it.
 const TOUCHING: f64 = 1e-8;
@@ -138,10 +142,12 @@ fn cover<'a>(
     let mut roll = Roll { normals: input.vertex_normals(), threads: options.threads };
     // What the whole ball can touch, smaller ones can.
     let mut moving: Vec<u32> = roll.untouched(&covering, (0..input.points.len() as u32).collect());
-    for (k, part) in LEVELS.iter().enumerate() {
-        covering.part = *part;
+    let radii = input.points.iter().map(|p| field(*p)).fold(0.0, f64::max) / options.edge;
+    let levels = ((radii / FIRST_RADIUS).ln() / GROWTH.ln()).floor().max(0.0) as i32;
+    for level in (0..=levels).rev() {
+        covering.part = GROWTH.powi(-level);
         roll.advance(&mut covering, &mut moving);
-        covering.remesh(if k + 1 == LEVELS.len() { LAST_ROUNDS } else { ROUNDS });
+        covering.remesh(if level == 0 { LAST_ROUNDS } else { ROUNDS });
     }
     covering
 }
