@@ -26,9 +26,11 @@ mod names;
 mod polish;
 mod quadratics;
 mod restyle;
+mod settle;
 mod sfnt;
 mod tables;
 mod trace;
+mod window;
 
 pub use error::FontError;
 pub use face::{Face, OutlineFormat};

@@ -1,0 +1,119 @@
+//! Contours in whole units brought within the tolerance.
+//!
+//! Rounding each point by itself may add up where points go the same way. Where a contour is too far from the outline, or the
+//! outline from it, the stretch around the worst place is worked on (see [`Window`]), then the next worst, until none is
+//! left or none gets better.
+
+use super::deviation;
+use super::grid::{Placed, Rounded};
+use super::window::{Window, strokes};
+use crate::plane::{BoundaryIndex, Point, Region, Segment};
+
+/// Points of a stretch before and after the worst place.
+const HALF_LENGTH: usize = 5;
+
+/// Stretches worked on in a glyph, at most so many for every contour and some more.
+const MOST_STRETCHES: usize = 60;
+
+/// How far around a stretch the exact outline is looked at, in units and in tolerances: no move leads farther.
+const MARGIN: f64 = 4.0;
+
+/// Distances that exceed the limit by less than this part are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Chords of written curves, in parts of the limit.
+const CHORD: f64 = 0.01;
+
+/// A place where the written and the exact outline are too far apart: the contour, its point, the distance.
+type Spot = (usize, usize, f64);
+
+/// Moves points of `contours` until they are within `limit` of `exact`, both ways, as far as that can be found.
+pub(super) fn settle(contours: &mut [Rounded], exact: &Region, index: &BoundaryIndex, limit: f64, units_per_em: f64) {
+    let limit = limit * (1.0 + ROUNDING);
+    let samples: Vec<Point> = deviation::points(exact, units_per_em).collect();
+    // Points at which nothing was found.
+    let mut tried: Vec<(usize, Point)> = Vec::new();
+    for _ in 0..MOST_STRETCHES {
+        let (spots, owners) = spots(contours, &samples, index, limit);
+        let is_new = |s: &&Spot| !tried.contains(&(s.0, contours[s.0].points[s.1].point));
+        let Some(&(c, j, _)) = spots.iter().filter(is_new).reduce(|a, b| if b.2 > a.2 { b } else { a }) else {
+            return;
+        };
+        let spot = contours[c].points[j].point;
+        let n = contours[c].points.len();
+        let closed = n <= 2 * HALF_LENGTH + 1;
+        let first = if closed { 0 } else { (j + n - HALF_LENGTH) % n };
+        let length = if closed { n } else { 2 * HALF_LENGTH + 1 };
+        let mut points = contours[c].points.clone();
+        points.rotate_left(first);
+        let chain: Vec<Placed> = points[..length].to_vec();
+        // Strokes that lie in the stretch as a whole.
+        let is_own = |k: usize| closed || (0..length - 1).contains(&((k + n - first) % n));
+        let own = samples.iter().zip(&owners).filter(|(_, owner)| owner.0 == c && is_own(owner.1));
+        let near = around(&chain, index, MARGIN * limit.max(1.0));
+        let mut window = Window::new(near, own.map(|(p, _)| *p).collect(), limit, closed);
+        let (better, before, after) = window.improved(chain);
+        if after >= before {
+            tried.push((c, spot));
+            continue;
+        }
+        points.splice(..length, better);
+        let m = points.len();
+        // Back to where the contour began, as near as its new number of points allows.
+        points.rotate_right(first.min(m));
+        contours[c].points = points;
+        contours[c].drop_repetition();
+    }
+}
+
+/// All places that are too far apart, and for each sample of the exact outline the point of the nearest stroke.
+fn spots(
+    contours: &[Rounded],
+    samples: &[Point],
+    index: &BoundaryIndex,
+    limit: f64,
+) -> (Vec<Spot>, Vec<(usize, usize)>) {
+    let mut spots = Vec::new();
+    let mut chords = Vec::new();
+    let mut owner_of_chord = Vec::new();
+    for (c, contour) in contours.iter().enumerate() {
+        for (j, stroke) in strokes(&contour.points, true) {
+            let count = stroke.chord_count(CHORD * limit);
+            let mut from = stroke.start;
+            for k in 0..count {
+                if !index.is_nearer(from, limit) {
+                    spots.push((c, j, index.distance(from)));
+                }
+                let to = stroke.point_at((k + 1) as f64 / count as f64);
+                chords.push(Segment::line(from, to));
+                owner_of_chord.push((c, j));
+                from = to;
+            }
+        }
+    }
+    let written = BoundaryIndex::of_segments(chords);
+    let owners = samples.iter().map(|p| {
+        let Some((k, nearest)) = written.nearest(*p) else { return (usize::MAX, 0) };
+        let (c, j) = owner_of_chord[k];
+        if nearest.distance > limit {
+            spots.push((c, j, nearest.distance));
+        }
+        (c, j)
+    });
+    let owners = owners.collect();
+    (spots, owners)
+}
+
+/// The exact outline within `margin` of the box of a chain.
+fn around(chain: &[Placed], index: &BoundaryIndex, margin: f64) -> BoundaryIndex {
+    let low = chain.iter().fold(Point::new(f64::INFINITY, f64::INFINITY), |m, p| m.inf(&p.point));
+    let high = chain.iter().fold(Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY), |m, p| m.sup(&p.point));
+    let meets = |s: &&Segment| {
+        let b = s.bounds();
+        b.min.x <= high.x + margin
+            && b.max.x >= low.x - margin
+            && b.min.y <= high.y + margin
+            && b.max.y >= low.y - margin
+    };
+    BoundaryIndex::of_segments(index.segments().iter().filter(meets).copied().collect())
+}
