@@ -15,6 +15,9 @@ const HALF_LENGTH: usize = 5;
 /// Stretches worked on in a glyph, at most so many for every contour and some more.
 const MOST_STRETCHES: usize = 60;
 
+/// A place is worked on again where what it exceeded the limit by fell below this part.
+const WORTH_GOING_ON: f64 = 0.8;
+
 /// How far around a stretch the exact outline is looked at, in units and in tolerances: no move leads farther.
 const MARGIN: f64 = 4.0;
 
@@ -48,13 +51,16 @@ pub(super) fn settle(contours: &mut [Rounded], exact: &Region, index: &BoundaryI
         points.rotate_left(first);
         let chain: Vec<Placed> = points[..length].to_vec();
         // Strokes that lie in the stretch as a whole.
-        let is_own = |k: usize| closed || (0..length - 1).contains(&((k + n - first) % n));
-        let own = samples.iter().zip(&owners).filter(|(_, owner)| owner.0 == c && is_own(owner.1));
+        let inner: Vec<usize> = strokes(&chain, closed).map(|(k, _)| (first + k) % n).collect();
+        let own = samples.iter().zip(&owners).filter(|(_, owner)| owner.0 == c && inner.contains(&owner.1));
         let near = around(&chain, index, MARGIN * limit.max(1.0));
         let mut window = Window::new(near, own.map(|(p, _)| *p).collect(), limit, closed);
         let (better, before, after) = window.improved(chain);
-        if after >= before {
+        // Small gains are taken, and are no reason to go on there.
+        if Window::exceeds(after) && after > WORTH_GOING_ON * before {
             tried.push((c, spot));
+        }
+        if after >= before {
             continue;
         }
         points.splice(..length, better);

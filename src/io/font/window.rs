@@ -263,6 +263,15 @@ impl Window {
                     }
                 }
             }
+            if here.on_curve && here.is_free && !here.is_smooth {
+                // A corner off the grid on half units: the joint of two control points, a bow of a unit across.
+                let off =
+                    |step: Vector| Placed { point: here.point + step, on_curve: false, is_smooth: true, is_free: true };
+                add(k, 1, &[off(Vector::zeros())]);
+                for (first, second) in steps(1).flat_map(|a| steps(1).map(move |b| (a, b))).filter(|(a, b)| a != b) {
+                    add(k, 1, &[off(first), off(second)]);
+                }
+            }
             if !here.on_curve {
                 let middle = |p: Point, t: f64| (here.point + (p - here.point) * t).map(f64::round);
                 let off = |point: Point| Placed { point, on_curve: false, is_smooth: true, is_free: true };
