@@ -316,6 +316,46 @@ fn no_damage_to_a_font_ends_in_a_panic() {
 }
 
 #[test]
+fn a_font_of_a_thousand_units_keeps_its_tolerance() {
+    let paths = [
+        "/usr/share/texmf/fonts/opentype/public/tex-gyre/texgyretermes-regular.otf",
+        "/usr/share/fonts/opentype/ebgaramond/EBGaramond12-Regular.otf",
+    ];
+    let found = paths.iter().find_map(|path| std::fs::read(path).ok());
+    let Some(bytes) = found else {
+        println!("skipped: {} are absent", paths.join(" and "));
+        return;
+    };
+    let face = Face::parse(&bytes, None).unwrap();
+    let radius = Radius::new(30.0).unwrap();
+    let open = |region: &Region| Some(rolling::open(region, radius, Topology::Keep).region);
+    let options = RestyleOptions { sampling: Sampling::new(face.units_per_em(), 30.0), tolerance: 0.5, threads: 2 };
+    let restyled = font::restyle(&face, "Other", &open, &options, &|_| {}).unwrap();
+    assert_eq!(restyled.beyond, Vec::<u16>::new());
+    assert!(restyled.deviation.0 <= 0.5, "{:?}", restyled.deviation);
+    assert!(restyled.fates.iter().filter(|f| **f == Fate::Changed).count() > 500);
+}
+
+#[test]
+fn a_glyph_beyond_the_tolerance_is_a_failed_check() {
+    // A hundredth of a unit cannot be kept on a grid of units.
+    let (_folder, font) = folder(&tables());
+    let new = font.with_file_name("new.ttf");
+    let with = |format: &str| {
+        let mut command = clopen();
+        command.args(["font", "-r", "40u", "--op", "close", "--tolerance", "0.01u", "--format", format, "-o"]);
+        command.arg(&new).arg(&font).output().unwrap()
+    };
+    let output = with("text");
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("BEYOND TOLERANCE"), "{text}");
+    let report: serde_json::Value = serde_json::from_slice(&with("json").stdout).unwrap();
+    assert!(!report["beyond_tolerance"].as_array().unwrap().is_empty());
+    assert_eq!(report["kept_glyphs"].as_array().unwrap().len(), report["kept"].as_u64().unwrap() as usize);
+}
+
+#[test]
 fn a_specimen_is_a_picture() {
     let (folder, font) = folder(&tables());
     let sheet = folder.path().join("sheet.png");

@@ -123,3 +123,100 @@ fn around(chain: &[Placed], index: &BoundaryIndex, margin: f64) -> BoundaryIndex
     };
     BoundaryIndex::of_segments(index.segments().iter().filter(meets).copied().collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::deviation::deviation;
+    use super::super::fill::{Filled, Sampling};
+    use super::super::grid::{self, Rounded};
+    use super::super::quadratics::Knot;
+    use super::*;
+    use crate::plane::Ring;
+
+    const EM: f64 = 1000.0;
+
+    fn knots(points: &[(f64, f64)]) -> Vec<Knot> {
+        points.iter().map(|&(x, y)| Knot { point: Point::new(x, y), controls: Vec::new() }).collect()
+    }
+
+    fn exact(points: &[(f64, f64)]) -> Region {
+        Region::new(vec![Ring::polygon(points.iter().map(|&(x, y)| Point::new(x, y)))])
+    }
+
+    /// How far contours are from an outline, as fonts are judged.
+    fn off(contours: &[Rounded], exact: &Region) -> f64 {
+        let contours: Vec<_> = contours.iter().map(Rounded::contour).collect();
+        let drawn = Filled::lines_of_contours(&contours, Sampling::new(EM, 30.0));
+        deviation((&drawn, &BoundaryIndex::new(&drawn)), (exact, &BoundaryIndex::new(exact)), EM)
+    }
+
+    fn settled(points: &[(f64, f64)], limit: f64) -> (Vec<Rounded>, Region) {
+        let exact = exact(points);
+        let index = BoundaryIndex::new(&exact);
+        let mut contours = vec![grid::contour(&knots(points), &index)];
+        settle(&mut contours, &exact, &index, limit, EM);
+        (contours, exact)
+    }
+
+    #[test]
+    fn corners_on_half_units_are_half_a_unit_off() {
+        let (contours, exact) = settled(&[(0.5, 0.5), (100.5, 0.5), (100.5, 80.5), (0.5, 80.5)], 0.5);
+        assert_eq!(off(&contours, &exact), 0.5);
+    }
+
+    #[test]
+    fn a_tip_between_the_places_of_the_grid_is_kept() {
+        // No place of the grid is within half a unit of the tip and of both sides: (473, -3) is 0.55 from it, (472, -4) and
+        // (472, -3) are farther.
+        let tip = Point::new(472.6, -3.38);
+        let points = [(372.6, -28.28), (tip.x, tip.y), (402.6, -49.9)];
+        let exact = exact(&points);
+        let index = BoundaryIndex::new(&exact);
+        let mut contours = vec![grid::contour(&knots(&points), &index)];
+        assert!(off(&contours, &exact) > 0.5);
+        settle(&mut contours, &exact, &index, 0.5, EM);
+        assert!(off(&contours, &exact) <= 0.5, "{}", off(&contours, &exact));
+        // The tip is implied, on half units.
+        assert!(contours[0].points.windows(2).any(|p| !p[0].on_curve && !p[1].on_curve), "{contours:?}");
+    }
+
+    #[test]
+    fn smooth_knots_slide_along_the_outline() {
+        // The joint of two lines that turn by a degree: as rounded it is 0.7 off, two units on it is on the outline.
+        let points = [(0.0, 0.0), (50.5, 0.0), (101.0, 1.0), (101.0, 100.0), (0.0, 100.0)];
+        let exact = exact(&points);
+        let index = BoundaryIndex::new(&exact);
+        let placed = |x: f64, y: f64, is_free: bool| Placed {
+            point: Point::new(x, y),
+            on_curve: true,
+            is_smooth: is_free,
+            is_free,
+        };
+        let mut contours = vec![Rounded {
+            points: vec![
+                placed(0.0, 0.0, false),
+                placed(50.0, 1.0, true),
+                placed(101.0, 1.0, false),
+                placed(101.0, 100.0, false),
+                placed(0.0, 100.0, false),
+            ],
+        }];
+        assert!(off(&contours, &exact) > 0.9);
+        settle(&mut contours, &exact, &index, 0.1, EM);
+        assert!(off(&contours, &exact) <= 0.1, "{contours:?}");
+        // What is not free stays.
+        let corners: Vec<Point> = contours[0].points.iter().filter(|p| !p.is_free).map(|p| p.point).collect();
+        assert_eq!(corners, [(0.0, 0.0), (101.0, 1.0), (101.0, 100.0), (0.0, 100.0)].map(|(x, y)| Point::new(x, y)));
+    }
+
+    #[test]
+    fn what_is_within_the_limit_stays_as_it_is() {
+        let points = [(0.4, 0.0), (100.2, 0.3), (100.0, 80.0), (0.0, 80.4)];
+        let exact = exact(&points);
+        let index = BoundaryIndex::new(&exact);
+        let before = grid::contour(&knots(&points), &index);
+        let mut contours = vec![before.clone()];
+        settle(&mut contours, &exact, &index, 0.5, EM);
+        assert_eq!(contours[0].points, before.points);
+    }
+}

@@ -158,7 +158,8 @@ impl Window {
     /// A chain that costs less, where one is found, and what the chain cost before and after.
     pub fn improved(&mut self, chain: Vec<Placed>) -> (Vec<Placed>, f64, f64) {
         let before = self.cost(&chain, f64::INFINITY);
-        let (mut best, mut least) = self.moved(chain, before, REACH);
+        let (chain, cost) = self.without_knots(chain, before);
+        let (mut best, mut least) = self.moved(chain, cost, REACH);
         for _ in 0..DEPTH {
             if !Window::exceeds(least) {
                 break;
@@ -186,6 +187,26 @@ impl Window {
             }
         }
         (best, before, least)
+    }
+
+    /// The chain without the knots that are better implied: a joint without a kink.
+    fn without_knots(&mut self, mut chain: Vec<Placed>, mut cost: f64) -> (Vec<Placed>, f64) {
+        let mut k = self.free(&chain).start;
+        while self.free(&chain).contains(&k) {
+            let n = chain.len();
+            let is_between = !chain[(k + n - 1) % n].on_curve && !chain[(k + 1) % n].on_curve;
+            if chain[k].on_curve && chain[k].is_free && chain[k].is_smooth && is_between {
+                let knot = chain.remove(k);
+                let without = self.cost(&chain, cost);
+                if without < cost {
+                    cost = without;
+                    continue;
+                }
+                chain.insert(k, knot);
+            }
+            k += 1;
+        }
+        (chain, cost)
     }
 
     /// The chain after its points have moved, singly and, where that does not do, in pairs of neighbours.
@@ -320,4 +341,44 @@ fn kinks(chain: &[Placed], closed: bool) -> f64 {
         a.perp(&b).abs().atan2(a.dot(&b))
     };
     inner.filter(|&k| chain[k].on_curve && chain[k].is_smooth).map(turn).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn placed(x: f64, y: f64, on_curve: bool) -> Placed {
+        Placed { point: Point::new(x, y), on_curve, is_smooth: true, is_free: true }
+    }
+
+    #[test]
+    fn strokes_end_on_half_units_where_the_knot_is_implied() {
+        let chain =
+            [placed(0.0, 0.0, true), placed(10.0, 0.0, false), placed(13.0, 3.0, false), placed(13.0, 9.0, true)];
+        let strokes: Vec<(usize, Stroke)> = strokes(&chain, false).collect();
+        assert_eq!(strokes.iter().map(|s| s.0).collect::<Vec<_>>(), [1, 2]);
+        assert_eq!((strokes[0].1.end, strokes[1].1.start), (Point::new(11.5, 1.5), Point::new(11.5, 1.5)));
+        // Closed there is a line back to the start, too.
+        assert_eq!(super::strokes(&chain, true).map(|s| s.0).collect::<Vec<_>>(), [1, 2, 3]);
+    }
+
+    #[test]
+    fn a_knot_off_the_grid_of_units_is_left_out() {
+        // The outline goes through (11.5, 1.5), half a unit off every knot of whole units there.
+        let ends = [placed(0.0, 0.0, true), placed(5.0, 0.0, true), placed(10.0, 0.0, false)];
+        let rest = [placed(13.0, 3.0, false), placed(13.0, 8.0, true), placed(13.0, 20.0, true)];
+        let exact: Vec<Placed> = ends.iter().chain(&rest).copied().collect();
+        let mut points: Vec<Point> = Vec::new();
+        for (_, stroke) in strokes(&exact, false) {
+            points.extend((0..16).map(|k| stroke.point_at(f64::from(k) / 16.0)));
+        }
+        points.push(Point::new(13.0, 20.0));
+        let segments = points.windows(2).map(|p| Segment::line(p[0], p[1])).collect();
+        let mut window = Window::new(BoundaryIndex::of_segments(segments), points, 0.1, false);
+        let mut chain = exact.clone();
+        chain.insert(3, placed(12.0, 1.0, true));
+        let (better, before, after) = window.improved(chain);
+        assert!(Window::exceeds(before) && !Window::exceeds(after), "{before} {after}");
+        assert_eq!(better, exact);
+    }
 }
