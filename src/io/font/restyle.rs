@@ -308,7 +308,7 @@ impl Worker<'_> {
         let tracer = trace::Tracer::new(&filled.sources);
         let pieces: Vec<Vec<trace::Piece>> = turned.rings.iter().map(|ring| tracer.pieces(ring)).collect();
         let mut best: Option<(f64, Vec<Contour>)> = None;
-        for accuracy in ACCURACIES {
+        'accuracies: for accuracy in ACCURACIES {
             let contour = |pieces: &Vec<trace::Piece>| {
                 let knots = quadratics::knots(pieces, &filled.sources, accuracy * self.options.tolerance);
                 grid::contour(&knots, index)
@@ -332,12 +332,15 @@ impl Worker<'_> {
             if try_out(&rounded) {
                 break;
             }
-            let done = LIMITS.iter().any(|part| {
-                settle::settle(&mut rounded, exact, index, part * self.options.tolerance, self.face.units_per_em());
-                try_out(&rounded)
-            });
-            if done {
-                break;
+            for part in LIMITS {
+                let limit = part * self.options.tolerance;
+                let is_settled = settle::settle(&mut rounded, exact, index, limit, self.face.units_per_em());
+                if try_out(&rounded) {
+                    break 'accuracies;
+                }
+                if !is_settled {
+                    break;
+                }
             }
         }
         let (off, contours) = best.ok_or("it has no outline")?;

@@ -18,6 +18,10 @@ const MOST_STRETCHES: usize = 60;
 /// A place is worked on again where what it exceeded the limit by fell below this part.
 const WORTH_GOING_ON: f64 = 0.8;
 
+/// A glyph is given up after so many places where next to nothing was found: one such place is enough for it to be beyond the
+/// tolerance, and the search must end where the tolerance is too small for the grid.
+const FRUITLESS: usize = 4;
+
 /// How far around a stretch the exact outline is looked at, in units and in tolerances: no move leads farther.
 const MARGIN: f64 = 4.0;
 
@@ -30,8 +34,14 @@ const CHORD: f64 = 0.01;
 /// A place where the written and the exact outline are too far apart: the contour, its point, the distance.
 type Spot = (usize, usize, f64);
 
-/// Moves points of `contours` until they are within `limit` of `exact`, both ways, as far as that can be found.
-pub(super) fn settle(contours: &mut [Rounded], exact: &Region, index: &BoundaryIndex, limit: f64, units_per_em: f64) {
+/// Moves points of `contours` until they are within `limit` of `exact`, both ways; whether they are.
+pub(super) fn settle(
+    contours: &mut [Rounded],
+    exact: &Region,
+    index: &BoundaryIndex,
+    limit: f64,
+    units_per_em: f64,
+) -> bool {
     let limit = limit * (1.0 + ROUNDING);
     let samples: Vec<Point> = deviation::points(exact, units_per_em).collect();
     // Points at which nothing was found.
@@ -40,8 +50,11 @@ pub(super) fn settle(contours: &mut [Rounded], exact: &Region, index: &BoundaryI
         let (spots, owners) = spots(contours, &samples, index, limit);
         let is_new = |s: &&Spot| !tried.contains(&(s.0, contours[s.0].points[s.1].point));
         let Some(&(c, j, _)) = spots.iter().filter(is_new).reduce(|a, b| if b.2 > a.2 { b } else { a }) else {
-            return;
+            return spots.is_empty();
         };
+        if tried.len() >= FRUITLESS {
+            return false;
+        }
         let spot = contours[c].points[j].point;
         let n = contours[c].points.len();
         let closed = n <= 2 * HALF_LENGTH + 1;
@@ -70,6 +83,7 @@ pub(super) fn settle(contours: &mut [Rounded], exact: &Region, index: &BoundaryI
         contours[c].points = points;
         contours[c].drop_repetition();
     }
+    false
 }
 
 /// All places that are too far apart, and for each sample of the exact outline the point of the nearest stroke.
