@@ -14,7 +14,10 @@ use crate::plane::{BoundaryIndex, Point, Segment, Vector};
 const CHORD: f64 = 0.01;
 
 /// At most so many chords of one curve.
-const MOST_CHORDS: f64 = 24.0;
+const MOST_CHORDS: f64 = 64.0;
+
+/// The longest chord, in units: exact outlines bend under long lines, too.
+const LONGEST_CHORD: f64 = 4.0;
 
 /// How far, in units, single points and pairs of them look around.
 const REACH: i32 = 2;
@@ -64,7 +67,8 @@ impl Stroke {
     pub fn chord_count(&self, accuracy: f64) -> usize {
         const FEWEST: f64 = 4.0;
         let bend = self.control.map_or(0.0, |c| (self.start.coords - c.coords * 2.0 + self.end.coords).norm());
-        (0.5 * (bend / accuracy).sqrt()).ceil().clamp(FEWEST, MOST_CHORDS) as usize
+        let by_length = (self.end - self.start).norm() / LONGEST_CHORD;
+        (0.5 * (bend / accuracy).sqrt()).max(by_length).ceil().clamp(FEWEST, MOST_CHORDS) as usize
     }
 }
 
