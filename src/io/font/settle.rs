@@ -28,9 +28,6 @@ const MARGIN: f64 = 4.0;
 /// Distances that exceed the limit by less than this part are rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Chords of written curves, in parts of the limit.
-const CHORD: f64 = 0.01;
-
 /// A place where the written and the exact outline are too far apart: the contour, its point, the distance.
 type Spot = (usize, usize, f64);
 
@@ -98,7 +95,7 @@ fn spots(
     let mut owner_of_chord = Vec::new();
     for (c, contour) in contours.iter().enumerate() {
         for (j, stroke) in strokes(&contour.points, true) {
-            let count = stroke.chord_count(CHORD * limit);
+            let count = stroke.chord_count(limit);
             let mut from = stroke.start;
             for k in 0..count {
                 if !index.is_nearer(from, limit) {

@@ -10,8 +10,14 @@ use std::collections::HashMap;
 use super::grid::Placed;
 use crate::plane::{BoundaryIndex, Point, Segment, Vector};
 
-/// Chords of written curves stray from them by no more than this part of the limit.
+/// Chords of written curves stray from them by no more than this part of the limit, or than this in units: finer ones cost
+/// time where the limit is below what the grid can hold.
 const CHORD: f64 = 0.01;
+const FINEST_CHORD: f64 = 2e-3;
+
+/// So many different strokes are measured for one stretch: those that can be brought within the limit need far fewer, and
+/// what cannot be must end.
+const MOST_STROKES: usize = 12_000;
 
 /// At most so many chords of one curve.
 const MOST_CHORDS: f64 = 64.0;
@@ -63,8 +69,9 @@ impl Stroke {
         [a, b, c, d, e, f]
     }
 
-    /// How many chords stray by less than `accuracy`, and give points enough to measure at.
-    pub fn chord_count(&self, accuracy: f64) -> usize {
+    /// How many chords are fine enough for a limit, and give points enough to measure at.
+    pub fn chord_count(&self, limit: f64) -> usize {
+        let accuracy = (CHORD * limit).max(FINEST_CHORD);
         const FEWEST: f64 = 4.0;
         let bend = self.control.map_or(0.0, |c| (self.start.coords - c.coords * 2.0 + self.end.coords).norm());
         let by_length = (self.end - self.start).norm() / LONGEST_CHORD;
@@ -119,6 +126,11 @@ impl Window {
         if self.closed { 0..chain.len() } else { 2..chain.len().saturating_sub(2).max(2) }
     }
 
+    /// Whether as much was tried as is worth it.
+    fn is_spent(&self) -> bool {
+        self.known.len() > MOST_STROKES
+    }
+
     /// Whether a chain that costs this exceeds the limit somewhere.
     pub fn exceeds(cost: f64) -> bool {
         cost >= EXCESSIVE
@@ -148,7 +160,7 @@ impl Window {
     fn measured(&mut self, stroke: &Stroke) -> &Measured {
         let (near, samples, limit) = (&self.near, &self.samples, self.limit);
         self.known.entry(stroke.key()).or_insert_with(|| {
-            let count = stroke.chord_count(CHORD * limit);
+            let count = stroke.chord_count(limit);
             let points: Vec<Point> = (0..=count).map(|k| stroke.point_at(k as f64 / count as f64)).collect();
             let off = |p: &Point| if near.is_nearer(*p, limit) { 0.0 } else { near.distance(*p) - limit };
             let far = |p: &Point| -> f64 {
@@ -165,7 +177,7 @@ impl Window {
         let (chain, cost) = self.without_knots(chain, before);
         let (mut best, mut least) = self.moved(chain, cost, REACH);
         for _ in 0..DEPTH {
-            if !Window::exceeds(least) {
+            if !Window::exceeds(least) || self.is_spent() {
                 break;
             }
             let mut variants: Vec<(Vec<Placed>, f64)> = Vec::new();
@@ -216,7 +228,7 @@ impl Window {
     /// The chain after its points have moved, singly and, where that does not do, in pairs of neighbours.
     fn moved(&mut self, mut chain: Vec<Placed>, mut cost: f64, reach: i32) -> (Vec<Placed>, f64) {
         loop {
-            while self.move_singles(&mut chain, &mut cost) {}
+            while !self.is_spent() && self.move_singles(&mut chain, &mut cost) {}
             if !Window::exceeds(cost) || !(1..=reach).any(|reach| self.move_pairs(&mut chain, &mut cost, reach)) {
                 return (chain, cost);
             }
@@ -246,7 +258,7 @@ impl Window {
         let free = self.free(chain);
         for k in free.clone() {
             let next = (k + 1) % n;
-            if !free.contains(&next) || !chain[k].is_free || !chain[next].is_free {
+            if self.is_spent() || !free.contains(&next) || !chain[k].is_free || !chain[next].is_free {
                 continue;
             }
             let places = [chain[k].point, chain[next].point];
