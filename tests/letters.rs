@@ -158,6 +158,7 @@ fn a_closed_font_has_filled_corners_and_all_else_as_it_was() {
     assert_eq!(before[12..15], [0, 1, 0x4F]);
     assert_eq!(before[15..51], after[14..50]);
     assert_eq!((&report["kept"], &report["changed"], &report["blank"]), (&5.into(), &3.into(), &1.into()), "{report}");
+    assert_eq!(report["kept_glyphs"].as_array().unwrap().len(), 5, "{report}");
     let names = &report["after"];
     assert_eq!(names["family"], "Test Sans Close 40");
     assert_eq!(names["postscript"], "TestSansClose40-Regular");
@@ -313,6 +314,47 @@ fn no_damage_to_a_font_ends_in_a_panic() {
         }
     }
     assert!(done > 50 && refused > 50, "{done} {refused}");
+}
+
+#[test]
+fn a_font_of_a_thousand_units_keeps_its_tolerance() {
+    let paths = [
+        "/usr/share/texmf/fonts/opentype/public/tex-gyre/texgyretermes-regular.otf",
+        "/usr/share/fonts/opentype/ebgaramond/EBGaramond12-Regular.otf",
+    ];
+    let found = paths.iter().find_map(|path| std::fs::read(path).ok());
+    let Some(bytes) = found else {
+        println!("skipped: {} are absent", paths.join(" and "));
+        return;
+    };
+    let face = Face::parse(&bytes, None).unwrap();
+    let radius = Radius::new(30.0).unwrap();
+    let open = |region: &Region| Some(rolling::open(region, radius, Topology::Keep).region);
+    let options = RestyleOptions { sampling: Sampling::new(face.units_per_em(), 30.0), tolerance: 0.5, threads: 2 };
+    let restyled = font::restyle(&face, "Other", &open, &options, &|_| {}).unwrap();
+    assert_eq!(restyled.beyond, Vec::<u16>::new());
+    assert!(restyled.deviation.0 <= 0.5, "{:?}", restyled.deviation);
+    assert!(restyled.fates.iter().filter(|f| **f == Fate::Changed).count() > 500);
+}
+
+#[test]
+fn a_glyph_beyond_the_tolerance_is_a_failed_check() {
+    // The box alone, its corners rounded: a hundredth of a unit cannot be kept on a grid of units.
+    let mut tables = tables();
+    let only = [on(100, 0), on(100, 300), on(400, 300), on(400, 0)];
+    tables.insert(*b"glyf", simple(&[&only], &[]));
+    let end = tables[b"glyf"].len() as i32 / 2;
+    tables.insert(*b"loca", words(&[&[0, 0, 0, 0], &[end; 6][..]].concat()));
+    let (_folder, font) = folder(&tables);
+    let new = font.with_file_name("new.ttf");
+    let mut command = clopen();
+    command.args(["font", "-r", "40.3u", "--op", "open", "--tolerance", "0.01u", "-o"]).arg(&new).arg(&font);
+    let output = command.output().unwrap();
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("BEYOND TOLERANCE: glyph 3"), "{text}");
+    // It is written all the same.
+    assert!(Face::parse(&std::fs::read(&new).unwrap(), None).is_ok());
 }
 
 #[test]

@@ -63,9 +63,7 @@ mod with_text {
     use crate::cli::text::StyleOp;
     use crate::cli::{input, output};
     use crate::flow::{CurveFlow, Field, Obstacle, Settings, Status};
-    use crate::io::font::{
-        self, Face, Fate, FontNames, GRID_DISTANCE, OutlineFormat, RestyleOptions, Restyled, Sampling,
-    };
+    use crate::io::font::{self, Face, Fate, FontNames, OutlineFormat, RestyleOptions, Restyled, Sampling};
     use crate::plane::Region;
     use crate::preview::{self, SpecimenRow};
     use crate::units::Radius;
@@ -97,11 +95,11 @@ mod with_text {
         glyphs: usize,
         blank: usize,
         kept: usize,
+        kept_glyphs: Vec<u16>,
         changed: usize,
         changed_by_components: usize,
         vanished: Vec<u16>,
         refused: Vec<Refused>,
-        at_the_grid: Vec<u16>,
         beyond_tolerance: Vec<u16>,
         largest_deviation_font_units: f64,
         largest_deviation_glyph: u16,
@@ -253,11 +251,11 @@ mod with_text {
                 glyphs: restyled.fates.len(),
                 blank: numbers(|f| *f == Fate::Blank).len(),
                 kept: numbers(|f| *f == Fate::Kept).len(),
+                kept_glyphs: numbers(|f| *f == Fate::Kept),
                 changed: numbers(|f| *f == Fate::Changed).len(),
                 changed_by_components: numbers(|f| *f == Fate::ChangedByComponents).len(),
                 vanished: numbers(|f| *f == Fate::Vanished),
                 refused: refused.collect(),
-                at_the_grid: restyled.coarse,
                 beyond_tolerance: restyled.beyond,
                 largest_deviation_font_units: restyled.deviation.0,
                 largest_deviation_glyph: restyled.deviation.1,
@@ -292,17 +290,9 @@ mod with_text {
             if !self.vanished.is_empty() {
                 text += &format!("nothing is left of {}\n", listed(&self.vanished));
             }
-            if !self.at_the_grid.is_empty() {
-                text += &format!(
-                    "whole font units are coarser than the tolerance: {} of {} are up to {:.2} units off\n",
-                    self.at_the_grid.len(),
-                    self.glyphs,
-                    GRID_DISTANCE
-                );
-            }
             if !self.beyond_tolerance.is_empty() {
                 text += &format!(
-                    "BEYOND TOLERANCE: {}: whole font units are too coarse there; allow more with --tolerance\n",
+                    "BEYOND TOLERANCE: {}: no places on the grid of whole font units were found that are nearer; allow more with --tolerance\n",
                     listed(&self.beyond_tolerance)
                 );
             }

@@ -25,12 +25,21 @@ const SLIDE_PART: f64 = 0.4;
 /// Coordinates nearer to half a unit than this are taken for half a unit: which way it goes must not hang on rounding.
 const HALF: f64 = 1e-6;
 
+/// A point of a contour in whole units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Placed {
+    pub point: Point,
+    pub on_curve: bool,
+    /// Whether the outline is smooth there.
+    pub is_smooth: bool,
+    /// Whether it was rounded, and may be elsewhere as well: what the font had on the grid stays.
+    pub is_free: bool,
+}
+
 /// A contour in whole units.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rounded {
-    pub contour: Contour,
-    /// Which of its points were rounded and may be elsewhere as well: no corners, and nothing that the font had there.
-    pub movable: Vec<bool>,
+    pub points: Vec<Placed>,
 }
 
 /// The contour of `knots` in whole units; `exact` is the outline that they follow.
@@ -71,10 +80,15 @@ pub(super) fn contour(knots: &[Knot], exact: &BoundaryIndex) -> Rounded {
             !is_whole(knots[k].point) && is_smooth[k] && off <= IMPLIED
         });
         if !is_implied {
-            rounded.push(placed[k], true, is_smooth[k] && !is_whole(knots[k].point));
+            rounded.points.push(Placed {
+                point: placed[k],
+                on_curve: true,
+                is_smooth: is_smooth[k],
+                is_free: !is_whole(knots[k].point),
+            });
         }
         for (point, exact) in controls[k].iter().zip(&knots[k].controls) {
-            rounded.push(*point, false, !is_whole(*exact));
+            rounded.points.push(Placed { point: *point, on_curve: false, is_smooth: true, is_free: !is_whole(*exact) });
         }
     }
     rounded.drop_repetition();
@@ -146,21 +160,20 @@ fn best(places: impl Iterator<Item = Point>, cost: impl Fn(Point) -> f64) -> Opt
 }
 
 impl Rounded {
-    fn push(&mut self, point: Point, on_curve: bool, movable: bool) {
-        self.contour.push(ContourPoint { point, on_curve });
-        self.movable.push(movable);
+    /// Its points as fonts hold them.
+    pub fn contour(&self) -> Contour {
+        self.points.iter().map(|p| ContourPoint { point: p.point, on_curve: p.on_curve }).collect()
     }
 
     /// Takes out points that repeat the one before, and control points on their knots.
-    fn drop_repetition(&mut self) {
+    pub fn drop_repetition(&mut self) {
         loop {
-            let n = self.contour.len();
-            let repeats = |k: usize| n > 1 && self.contour[k].point == self.contour[(k + 1) % n].point;
+            let n = self.points.len();
+            let repeats = |k: usize| n > 1 && self.points[k].point == self.points[(k + 1) % n].point;
             let Some(k) = (0..n).find(|&k| repeats(k)) else { return };
             // Of a knot and a control point the knot stays.
-            let gone = if self.contour[k].on_curve { (k + 1) % n } else { k };
-            self.contour.remove(gone);
-            self.movable.remove(gone);
+            let gone = if self.points[k].on_curve { (k + 1) % n } else { k };
+            self.points.remove(gone);
         }
     }
 }

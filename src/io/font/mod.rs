@@ -26,9 +26,11 @@ mod names;
 mod polish;
 mod quadratics;
 mod restyle;
+mod settle;
 mod sfnt;
 mod tables;
 mod trace;
+mod window;
 
 pub use error::FontError;
 pub use face::{Face, OutlineFormat};
@@ -36,7 +38,7 @@ pub use fill::{CHORD_TOLERANCE, Sampling, check_radius};
 pub use line::{PlacedGlyph, line, shape};
 pub use names::FontNames;
 pub use restyle::{Fate, Operation, RestyleOptions};
-pub use tables::{GRID_DISTANCE, Restyled, restyle};
+pub use tables::{Restyled, restyle};
 
 /// Default tolerance in parts of the em: half a unit of a thousand.
 pub const DEFAULT_TOLERANCE: f64 = 5e-4;

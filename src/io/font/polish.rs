@@ -4,8 +4,7 @@
 //! of such a place tries its eight neighbours on the grid, and takes the one that is best for all it is part of; what
 //! the font itself had on the grid stays.
 
-use super::contour::ContourPoint;
-use super::grid::Rounded;
+use super::grid::{Placed, Rounded};
 use crate::plane::{BoundaryIndex, Point, Vector};
 
 /// Points try to move where the contour is off by more than this part of the tolerance.
@@ -22,30 +21,30 @@ const PARTS: usize = 6;
 
 /// Moves the movable points of a contour towards `exact`.
 pub(super) fn polish(rounded: &mut Rounded, exact: &BoundaryIndex, tolerance: f64) {
-    let n = rounded.contour.len();
+    let n = rounded.points.len();
     if n < 3 {
         return;
     }
     for _ in 0..ROUNDS {
         let mut moved = false;
         for k in 0..n {
-            if !rounded.movable[k] {
+            if !(rounded.points[k].is_free && rounded.points[k].is_smooth) {
                 continue;
             }
-            let (off, mut least) = cost(&rounded.contour, k, exact, f64::INFINITY);
+            let (off, mut least) = cost(&rounded.points, k, exact, f64::INFINITY);
             if off <= WORTH_IT * tolerance {
                 continue;
             }
-            let place = rounded.contour[k].point;
+            let place = rounded.points[k].point;
             let mut best = place;
             for step in STEPS {
-                rounded.contour[k].point = place + Vector::new(step[0], step[1]);
-                let (_, cost) = cost(&rounded.contour, k, exact, least);
+                rounded.points[k].point = place + Vector::new(step[0], step[1]);
+                let (_, cost) = cost(&rounded.points, k, exact, least);
                 if cost < least {
-                    (best, least) = (rounded.contour[k].point, cost);
+                    (best, least) = (rounded.points[k].point, cost);
                 }
             }
-            rounded.contour[k].point = best;
+            rounded.points[k].point = best;
             moved |= best != place;
         }
         if !moved {
@@ -63,7 +62,7 @@ const CORNER: f64 = 0.3;
 
 /// How far what point `k` is part of is from the outline, and what that and the kinks in it cost; where it costs more than
 /// `limit`, as much as is known.
-fn cost(contour: &[ContourPoint], k: usize, exact: &BoundaryIndex, limit: f64) -> (f64, f64) {
+fn cost(contour: &[Placed], k: usize, exact: &BoundaryIndex, limit: f64) -> (f64, f64) {
     let n = contour.len();
     let at = |i: usize| contour[(k + n + i - 2) % n];
     // The points from one before to one after, and what lies next to them.
@@ -83,7 +82,7 @@ fn cost(contour: &[ContourPoint], k: usize, exact: &BoundaryIndex, limit: f64) -
                 kinks += along.perp(&incoming).abs();
             }
         } else {
-            let end = |p: ContourPoint| if p.on_curve { p.point } else { nalgebra::center(&p.point, &point.point) };
+            let end = |p: Placed| if p.on_curve { p.point } else { nalgebra::center(&p.point, &point.point) };
             let (a, b) = (end(before), end(after));
             let curve = |t: f64| {
                 let s = 1.0 - t;

@@ -16,7 +16,7 @@ use super::face::{Face, Source};
 use super::fill::{Filled, Sampling};
 use super::glyf::{self, Composite, Glyph};
 use super::grid::{self, Rounded};
-use super::{polish, quadratics, trace};
+use super::{polish, quadratics, settle, trace};
 use crate::plane::{BoundaryIndex, Region};
 
 /// A result nearer to the outline than this part of the tolerance is the outline: nothing moved.
@@ -25,6 +25,9 @@ const UNMOVED: f64 = 0.1;
 /// Parts of the tolerance within which curves are laid before they are rounded: the second is tried where the first and
 /// rounding together exceed it.
 const ACCURACIES: [f64; 2] = [0.2, 0.05];
+
+/// Parts of the tolerance that are aimed at, in turn: what is measured in the end lies between the points that are moved by.
+const LIMITS: [f64; 2] = [1.0, 0.97];
 
 /// What to do to an outline; `None` where the result cannot be vouched for: then the glyph stays as it is.
 pub type Operation<'a> = dyn Fn(&Region) -> Option<Region> + Sync + 'a;
@@ -305,15 +308,15 @@ impl Worker<'_> {
         let tracer = trace::Tracer::new(&filled.sources);
         let pieces: Vec<Vec<trace::Piece>> = turned.rings.iter().map(|ring| tracer.pieces(ring)).collect();
         let mut best: Option<(f64, Vec<Contour>)> = None;
-        for accuracy in ACCURACIES {
+        'accuracies: for accuracy in ACCURACIES {
             let contour = |pieces: &Vec<trace::Piece>| {
                 let knots = quadratics::knots(pieces, &filled.sources, accuracy * self.options.tolerance);
                 grid::contour(&knots, index)
             };
             // What rounding has flattened encloses nothing.
-            let mut rounded: Vec<Rounded> = pieces.iter().map(contour).filter(|c| c.contour.len() > 2).collect();
+            let mut rounded: Vec<Rounded> = pieces.iter().map(contour).filter(|c| c.points.len() > 2).collect();
             let mut try_out = |rounded: &[Rounded]| {
-                let contours: Vec<Contour> = rounded.iter().map(|r| r.contour.clone()).collect();
+                let contours: Vec<Contour> = rounded.iter().map(Rounded::contour).collect();
                 // Rounding may let parts overlap that nearly touch: the lines are compared, not what they fill.
                 let drawn = Filled::lines_of_contours(&contours, self.options.sampling);
                 let off = self.off(drawn, exact, index);
@@ -328,6 +331,16 @@ impl Worker<'_> {
             rounded.iter_mut().for_each(|r| polish::polish(r, index, self.options.tolerance));
             if try_out(&rounded) {
                 break;
+            }
+            for part in LIMITS {
+                let limit = part * self.options.tolerance;
+                let is_settled = settle::settle(&mut rounded, exact, index, limit, self.face.units_per_em());
+                if try_out(&rounded) {
+                    break 'accuracies;
+                }
+                if !is_settled {
+                    break;
+                }
             }
         }
         let (off, contours) = best.ok_or("it has no outline")?;

@@ -32,10 +32,6 @@ const SMOOTH: u16 = 0x000A;
 const RESTRICTED: u16 = 0x0002;
 const LICENCE_BITS: u16 = 0x000F;
 
-/// Half the diagonal of a cell of the grid of whole units: as far may a corner be from the nearest place that a font can hold,
-/// whatever the tolerance. Of a thousand units in an em that is more than the default one.
-pub const GRID_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
-
 /// What was done to a font.
 #[derive(Clone, Debug)]
 pub struct Restyled {
@@ -45,9 +41,7 @@ pub struct Restyled {
     pub fates: Vec<Fate>,
     /// The largest distance between what was written and the exact result, and of which glyph, in font units.
     pub deviation: (f64, u16),
-    /// Glyphs whose distance exceeds the tolerance, but not what rounding to whole units may take ([`GRID_DISTANCE`]).
-    pub coarse: Vec<u16>,
-    /// Glyphs whose distance exceeds both.
+    /// Glyphs whose distance exceeds the tolerance.
     pub beyond: Vec<u16>,
     /// What it was called.
     pub before: FontNames,
@@ -119,16 +113,12 @@ pub fn restyle(
                 if d.deviation > worst.0 { (d.deviation, glyph as u16) } else { worst }
             },
         );
-    let limit = options.tolerance.max(GRID_DISTANCE);
-    let with = |is: &dyn Fn(f64) -> bool| -> Vec<u16> {
-        done.iter().enumerate().filter(|(_, d)| is(d.deviation)).map(|(k, _)| k as u16).collect()
-    };
+    let beyond = done.iter().enumerate().filter(|(_, d)| d.deviation > options.tolerance).map(|(k, _)| k as u16);
     Ok(Restyled {
         bytes: sfnt::write(&tables),
         fates: done.iter().map(|d| d.fate).collect(),
         deviation: worst,
-        coarse: with(&|off| off > options.tolerance && off <= limit),
-        beyond: with(&|off| off > limit),
+        beyond: beyond.collect(),
         before,
         after: names.summary(),
         fs_type,
