@@ -7,6 +7,9 @@ use crate::mesh::Point;
 /// The middle of an edge or a face may be this far from the closing, in edge lengths, where the surface is whole.
 const TORN: f64 = 1.0;
 
+/// What is this near, in edge lengths, need not be looked at from other balls.
+const CLOSE: f64 = 0.1;
+
 /// A face whose normal is farther from that of a ball at its corner than this cosine tells is folded.
 const FOLDED: f64 = -0.2;
 
@@ -78,7 +81,12 @@ fn look(covering: &Covering, f: u32) -> Result<f64, Trouble> {
     if covering.ground.depth(center, covering.edge) > DIP * covering.edge {
         return Err(Trouble::Dip);
     }
-    let Some(rest) = corners.iter().find_map(|&v| covering.rest(v)) else { return Ok(0.0) };
+    // Balls at the corners may be those of different sides: the nearest that one of them rolls to counts, or one from above.
+    let Some(normal) = area_vector(triangle).try_normalize(0.0) else { return Ok(0.0) };
+    let rests: Vec<_> = corners.iter().filter_map(|&v| covering.rest(v)).collect();
+    if rests.is_empty() {
+        return Ok(0.0);
+    }
     let long = covering
         .mesh
         .half_edges(f)
@@ -89,13 +97,21 @@ fn look(covering: &Covering, f: u32) -> Result<f64, Trouble> {
     let mut largest: f64 = 0.0;
     for p in std::iter::once(center).chain(middles) {
         let r = covering.radius(p);
-        // A face may have its middle on the input, where it stays.
-        let off = covering.ground.rest(p, rest.center, r, rest.contacts).map(|found| (found.point() - p).norm());
-        match off {
-            Some(off) if off <= TORN * covering.edge => largest = largest.max(off),
-            _ if r > 0.0 => return Err(Trouble::Tear),
-            _ => {}
+        let mut least = f64::INFINITY;
+        let guesses = rests.iter().map(|rest| (rest.center, rest.contacts));
+        for (start, contacts) in guesses.chain([(p + normal * r, super::contact::UNTOUCHED)]) {
+            if let Some(found) = covering.ground.rest(p, start, r, contacts) {
+                least = least.min((found.point() - p).norm());
+            }
+            if least <= CLOSE * covering.edge {
+                break;
+            }
         }
+        if r > 0.0 && least > TORN * covering.edge {
+            return Err(Trouble::Tear);
+        }
+        // Where the ball has no radius nothing is to be reached.
+        largest = largest.max(if least.is_finite() { least } else { 0.0 });
     }
     Ok(largest)
 }

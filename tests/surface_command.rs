@@ -1,0 +1,163 @@
+//! The whole command `clopen surface`: from a mesh to a mesh, a picture, a report and an exit status.
+
+#[allow(dead_code)]
+mod solids;
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use assert_cmd::Command;
+use clopen::io::mesh::{MeshFormat, read, write};
+use clopen::mesh::PolygonMesh;
+use serde_json::Value;
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, mesh) in [("bracket", solids::bracket()), ("capsule", solids::capsule()), ("figure", solids::figure())] {
+        fs::write(folder.path().join(format!("{name}.obj")), write(&mesh, MeshFormat::Obj)).unwrap();
+    }
+    folder
+}
+
+fn surface(folder: &Path, arguments: &str) -> Output {
+    let mut command = Command::cargo_bin("clopen").unwrap();
+    command.current_dir(folder).arg("surface").args(arguments.split_whitespace()).output().unwrap()
+}
+
+fn words(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn done(folder: &Path, arguments: &str) -> Output {
+    let output = surface(folder, arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments}: {}", words(&output));
+    output
+}
+
+fn mesh(folder: &Path, name: &str) -> PolygonMesh {
+    let format = MeshFormat::of_path(Path::new(name)).unwrap();
+    read(&fs::read(folder.join(name)).unwrap(), format).unwrap()
+}
+
+fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn a_mesh_is_closed_with_a_picture_and_a_report() {
+    let folder = folder();
+    let output = done(folder.path(), "close bracket.obj -r .3 -o out.obj --preview out.png --format json");
+    let report = json(&output);
+    let [kept, all] = ["faces_kept", "faces_in"].map(|k| report[k].as_u64().unwrap());
+    assert!(kept > all / 2 && kept < all, "{kept} of {all}");
+    assert_eq!(report["conflicts"].as_array().unwrap().len(), 0);
+    // Quads that did not change are quads, with their corners, and stand first in their order.
+    let (before, after) = (mesh(folder.path(), "bracket.obj"), mesh(folder.path(), "out.obj"));
+    let corners = |m: &PolygonMesh, k: usize| m.polygon(k).iter().map(|&v| m.points[v as usize]).collect::<Vec<_>>();
+    let mut from = 0;
+    for k in 0..kept as usize {
+        let face = corners(&after, k);
+        from = (from..before.polygon_count()).find(|&j| corners(&before, j) == face).expect("a face of the input") + 1;
+    }
+    let picture = tiny_skia::Pixmap::decode_png(&fs::read(folder.path().join("out.png")).unwrap()).unwrap();
+    assert!(picture.width() > 100);
+    let checked = json(&done(folder.path(), "check bracket.obj out.obj -r .3 --format json"));
+    assert!(checked["contact"]["largest_over_h"].as_f64().unwrap() < 0.5, "{checked}");
+}
+
+#[test]
+fn what_is_convex_comes_back_as_it_was() {
+    let folder = folder();
+    for format in ["obj", "ply"] {
+        done(folder.path(), &format!("close capsule.obj -r .2 -o out.{format}"));
+        let (before, after) = (mesh(folder.path(), "capsule.obj"), mesh(folder.path(), &format!("out.{format}")));
+        assert_eq!(before.points, after.points);
+        assert!(before.polygons().eq(after.polygons()));
+    }
+}
+
+#[test]
+fn opening_is_closing_of_what_is_empty() {
+    let folder = folder();
+    let mut inside_out = PolygonMesh::new(solids::bracket().points);
+    for polygon in solids::bracket().polygons() {
+        inside_out.push(&polygon.iter().rev().copied().collect::<Vec<_>>());
+    }
+    fs::write(folder.path().join("empty.obj"), write(&inside_out, MeshFormat::Obj)).unwrap();
+    let refused = surface(folder.path(), "close empty.obj -r .2 -o out.obj");
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(words(&refused).contains("inside out"), "{}", words(&refused));
+    done(folder.path(), "open bracket.obj -r .2 -o out.obj");
+    assert!(mesh(folder.path(), "out.obj").triangulated().volume() < solids::bracket().triangulated().volume());
+}
+
+#[test]
+fn ply_tells_what_moved_and_how_far() {
+    let folder = folder();
+    done(folder.path(), "close bracket.obj -r .3 -o out.ply");
+    let after = mesh(folder.path(), "out.ply");
+    assert_eq!((after.colours.len(), after.scalars.len()), (after.points.len(), after.points.len()));
+    let farthest = after.scalars.iter().copied().fold(0.0, f64::max);
+    assert!((farthest - 0.3 * (2f64.sqrt() - 1.0)).abs() < 0.05, "{farthest}");
+    assert!(after.scalars.iter().any(|s| *s == 0.0));
+}
+
+#[test]
+fn radii_vary_and_pins_hold() {
+    let folder = folder();
+    done(folder.path(), "close bracket.obj -r .3 --pin-box -1,-1,-1,4,4,1.5 -o out.obj");
+    let after = mesh(folder.path(), "out.obj");
+    let fillet = |z: &dyn Fn(f64) -> bool| {
+        after.points.iter().any(|p| z(p.z) && p.x > 0.81 && p.y > 0.81 && p.x < 1.05 && p.y < 1.05)
+    };
+    assert!(!fillet(&|z| z < 0.5) && fillet(&|z| z > 0.8));
+    done(folder.path(), "close bracket.obj -r .3 --radius-from 0,0,0.2=.1 --radius-to 0,0,.8=.4 -o vary.obj");
+    let vary = mesh(folder.path(), "vary.obj");
+    let depth = |z: f64| {
+        let near = vary.points.iter().filter(|p| (p.z - z).abs() < 0.06 && (p.x - p.y).abs() < 0.03 && p.x < 1.3);
+        near.map(|p| (p.x - 0.8).hypot(p.y - 0.8)).fold(0.0, f64::max)
+    };
+    assert!(depth(0.75) > 2.0 * depth(0.25), "{} {}", depth(0.75), depth(0.25));
+}
+
+#[test]
+fn bad_input_is_one_sentence_and_exit_two() {
+    let folder = folder();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("empty.obj", "");
+    write("nan.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n");
+    write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    write("three.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
+    write("cut.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n");
+    for (arguments, expected) in [
+        ("close empty.obj -r 1 -o out.obj", "empty.obj"),
+        ("close nan.obj -r 1 -o out.obj", "line 2"),
+        ("close range.obj -r 1 -o out.obj", "line 4"),
+        ("close three.obj -r 1 -o out.obj", "edge"),
+        ("close cut.stl -r 1 -o out.obj", "cut.stl"),
+        ("close absent.obj -r 1 -o out.obj", "absent.obj"),
+        ("close bracket.obj -r 1e9 -o out.obj", "radius"),
+        ("close bracket.obj -r 1e-9 -o out.obj", "radius"),
+        ("close bracket.obj -r .3 --edge-length 1e-9 -o out.obj", "edge length"),
+        ("close bracket.obj -r 0 -o out.obj", "above zero"),
+        ("close bracket.obj -r .3 -o out.xyz", ".obj, .stl or .ply"),
+        ("close bracket.obj -r .3 -o bracket.obj", "bracket.obj"),
+        ("close bracket.obj -r .3 --pin-ball 99,0,0,1 -o out.obj", "holds no vertex"),
+        ("close bracket.obj -r .3 --radius-by-vertex -o out.obj", "radius-by-vertex"),
+        ("close bracket.obj -r .3 --format json", "-o OUT.obj"),
+    ] {
+        let output = surface(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {}", words(&output));
+        assert!(words(&output).contains(expected), "{arguments}: {}", words(&output));
+        assert!(!folder.path().join("out.obj").exists(), "{arguments}");
+    }
+}
+
+#[test]
+fn the_volumetric_method_is_there_for_comparison() {
+    let folder = folder();
+    let report = json(&done(folder.path(), "close bracket.obj -r .3 --method volume -o out.obj --format json"));
+    assert_eq!(report["vertices_kept"], 0);
+    assert!(report["volume_out"].as_f64().unwrap() > report["volume_in"].as_f64().unwrap());
+}
