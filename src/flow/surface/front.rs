@@ -14,9 +14,20 @@ use crate::mesh::{HalfEdgeMesh, NONE, Point, TriangleMesh, Vector};
 /// as it has to, and meets it smoothly. With 1 it would be a cone that turns the same at every scale.
 const EASE: f64 = 0.7;
 
-/// A vertex at rest is let go where it is beyond the bound by this part of it: what is left of the scatter of discrete curvature
-/// on faces of any shape.
-const DEAD_BAND: f64 = 0.01;
+/// A vertex is let go where it is beyond the bound by more than this part of it, and by [`FITTING`] (h / r)²: what the curvature of
+/// samples of a cylinder of radius r is beyond it, by less than 0.0002 more or less, on faces of any shape.
+const DEAD_BAND: f64 = 0.003;
+const FITTING: f64 = 0.25;
+
+/// Without a bound, curvatures below this part of 1 / r are none.
+const UNBOUND_BAND: f64 = 1e-9;
+
+/// A vertex with no more edges than this has its curvature from the vertices beyond its faces as well: five fit a quadratic
+/// function whatever they are, four leave it open.
+const FEW: usize = 5;
+
+/// Unless they are farther away, in edge lengths, than this.
+const FAR: f64 = 3.0;
 
 /// A vertex goes no farther in a step than so many edge lengths.
 const STRIDE: f64 = 0.25;
@@ -142,7 +153,10 @@ impl<'a> SurfaceFront<'a> {
     /// Has the vertex and its neighbours looked at in the next step.
     pub(super) fn touch(&mut self, v: u32) {
         self.candidates.push(v);
-        self.candidates.extend(self.mesh.neighbours(v));
+        for w in self.mesh.neighbours(v) {
+            self.candidates.push(w);
+            self.candidates.extend(self.mesh.neighbours(w));
+        }
     }
 
     /// Which way vertex `v` goes in the step that is being taken; `None`: it stays.
@@ -163,12 +177,32 @@ impl<'a> SurfaceFront<'a> {
     fn curved(&self, v: u32, way: Way, place: impl Fn(u32) -> Point, around: &mut Vec<Point>) -> Curved {
         around.clear();
         around.extend(self.mesh.neighbours(v).map(&place));
-        curved(place(v), around, self.measure(way), self.vertices[v as usize].radius, self.h)
+        let ring = around.len();
+        if ring <= FEW {
+            let beyond = |h: u32| {
+                let link = 3 * (h / 3) + (h % 3 + 1) % 3;
+                self.mesh
+                    .twin(link)
+                    .map(|t| place(self.mesh.opposite(t)))
+                    .filter(|p| (p - place(v)).norm() < FAR * self.h)
+            };
+            around.extend(self.mesh.spokes(v).filter_map(beyond));
+        }
+        curved(place(v), around, ring, self.measure(way), self.vertices[v as usize].radius, self.h)
+    }
+
+    /// How far beyond the bound a vertex may rest.
+    fn band(&self, v: u32) -> f64 {
+        let radius = self.vertices[v as usize].radius;
+        if self.obstacle == Obstacle::NONE {
+            return UNBOUND_BAND / radius;
+        }
+        let part = (self.h / radius).min(1.0);
+        (DEAD_BAND + FITTING * part * part) / radius
     }
 
     /// Which way vertex `v` is let go, and how far beyond the bound it is.
     fn released(&self, v: u32, around: &mut Vec<Point>) -> Option<(Way, f64)> {
-        let band = if self.obstacle == Obstacle::NONE { 1e-9 } else { DEAD_BAND };
         [Way::Outward, Way::Inward].into_iter().find_map(|way| {
             // Of bounds that are not there none is passed.
             if self.obstacle.beyond(way, 0.0, 1.0) == f64::NEG_INFINITY {
@@ -176,7 +210,7 @@ impl<'a> SurfaceFront<'a> {
             }
             let c = self.curved(v, way, |v| self.point(v), around);
             let beyond = self.obstacle.beyond(way, c.curvature, c.unit);
-            (beyond > band / self.vertices[v as usize].radius && beyond.is_finite()).then_some((way, beyond))
+            (beyond > self.band(v) && beyond.is_finite()).then_some((way, beyond))
         })
     }
 

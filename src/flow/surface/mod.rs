@@ -22,10 +22,10 @@ use super::obstacle::Obstacle;
 use crate::mesh::{HalfEdgeMesh, NotManifold, Point, TriangleMesh};
 
 /// The time step tau in units of h².
-pub const DEFAULT_SURFACE_TIME_STEP: f64 = 0.5;
+pub const DEFAULT_SURFACE_TIME_STEP: f64 = 2.0;
 
 /// A flow that moves less than this in a step, in edge lengths, has ended.
-pub const DEFAULT_SURFACE_TOLERANCE: f64 = 1e-3;
+pub const DEFAULT_SURFACE_TOLERANCE: f64 = 1e-4;
 
 /// What the bound depends on in space.
 pub struct SurfaceField<'a> {
@@ -89,7 +89,7 @@ pub enum SurfaceFlowError {
     #[error("an edge length of {0}: it must be a finite number above zero; an eighth of the radius is the rule")]
     EdgeLength(f64),
     /// The time step is no positive number.
-    #[error("a time step of {0} squares of the edge length: it must be above 0 and at most 100; 0.5 is the rule")]
+    #[error("a time step of {0} squares of the edge length: it must be above 0 and at most 100; 2 is the rule")]
     TimeStep(f64),
     /// The tolerance is no positive number.
     #[error("a tolerance of {0} edge lengths: it must be above 0 and at most 1")]

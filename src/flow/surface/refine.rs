@@ -4,13 +4,11 @@
 //! smallest that was there, and the parts get larger and larger away from what moves.
 
 use super::SurfaceFront;
+use super::curvature::COARSE;
 use super::direction::dihedral;
 use super::front::Vertex;
 use crate::flow::obstacle::Way;
 use crate::mesh::Point;
-
-/// Faces at moving vertices with longer edges, in edge lengths, are cut.
-const COARSE: f64 = 2.0;
 
 /// One edge must be longer than another by this part of it, or they are equally long.
 const LONGER: f64 = 1e-9;

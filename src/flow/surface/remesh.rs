@@ -5,9 +5,11 @@
 //! nothing of the input is met.
 
 use super::SurfaceFront;
-use super::curvature::LONGEST;
 use crate::flow::obstacle::{Obstacle, Way};
 use crate::mesh::{Hierarchy, Point, Vector};
+
+/// Edges longer than so many edge lengths are split.
+const LONGEST: f64 = 1.5;
 
 /// Edges shorter than so many edge lengths are merged into a vertex.
 const SHORTEST: f64 = 0.4;
