@@ -54,7 +54,7 @@ impl SurfaceFront<'_> {
         self.moving = moving;
     }
 
-    /// Six times the volume that is lost where a face `a b c` gets its corner `from` put to `to`, as `+1` outward has it.
+    /// The side to which vertex `v` moves: 1 outward, -1 inward.
     fn side(&self, v: u32) -> f64 {
         if self.way(v) == Some(Way::Inward) { -1.0 } else { 1.0 }
     }
