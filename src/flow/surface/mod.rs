@@ -7,6 +7,7 @@ mod contact;
 mod curvature;
 mod direction;
 mod front;
+mod motion;
 mod operators;
 mod refine;
 mod remesh;

@@ -29,7 +29,7 @@ pub(super) fn stiffness(mesh: &HalfEdgeMesh, f: u32, pull: Pull) -> Option<[[f64
     let doubled = mesh.area_vector(f);
     let doubled_area = doubled.norm();
     let longest2 = edges.iter().fold(0.0, |m: f64, e| m.max(e.norm_squared()));
-    if !(doubled_area > NO_AREA * longest2) {
+    if doubled_area.is_nan() || doubled_area <= NO_AREA * longest2 {
         return None;
     }
     let mut matrix = [[0.0; 3]; 3];
