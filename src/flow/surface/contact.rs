@@ -1,20 +1,20 @@
 //! Where the surface runs into itself.
 
 use super::SurfaceFront;
-use super::front::is_gone;
-use crate::mesh::{Hierarchy, Point, cross};
+use super::front::{Vertex, is_gone};
+use crate::mesh::{HalfEdgeMesh, Hierarchy, Point, cross};
 
 /// What changed since contacts were last looked for.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contacts {
-    /// Vertices at faces that cross go back to where they were, and stay.
+    /// The surface goes back to where it did not cross itself, and what crossed stays there.
     freeze: bool,
     /// The faces of the input.
     pub ground: Option<Hierarchy>,
     /// Faces that changed, some of them twice.
     changed: Vec<u32>,
-    /// Where vertices were, in the order in which they moved.
-    places: Vec<(u32, Point)>,
+    /// The surface when contacts were last looked for.
+    before: Option<Box<(HalfEdgeMesh, Vec<Vertex>, Vec<bool>)>>,
     /// Faces that were found to cross.
     known: Vec<bool>,
 }
@@ -27,13 +27,6 @@ impl Contacts {
     /// Remembers that a face changed.
     pub fn note(&mut self, f: u32) {
         self.changed.push(f);
-    }
-
-    /// Remembers where a vertex was before it moved.
-    pub fn remember(&mut self, v: u32, p: Point) {
-        if self.freeze {
-            self.places.push((v, p));
-        }
     }
 }
 
@@ -51,7 +44,6 @@ impl SurfaceFront<'_> {
         changed.sort_unstable();
         changed.dedup();
         changed.retain(|&f| !is_gone(&self.mesh, f));
-        let places = std::mem::take(&mut self.contacts.places);
         let loose: Vec<u32> =
             (0..self.touched.len() as u32).filter(|&f| self.touched[f as usize] && !is_gone(&self.mesh, f)).collect();
         let corners: Vec<[u32; 3]> = loose.iter().map(|&f| self.mesh.face(f)).collect();
@@ -89,28 +81,34 @@ impl SurfaceFront<'_> {
             (known[f as usize], known[g as usize]) = (true, true);
         }
         if self.contacts.freeze && !pairs.is_empty() {
-            self.put_back(&pairs, places);
+            self.put_back(&pairs);
         }
+        self.keep_state();
         found
     }
 
-    /// Puts the vertices of crossing faces back to where they were first of all since the last search, and pins them.
-    fn put_back(&mut self, pairs: &[(u32, u32)], mut places: Vec<(u32, Point)>) {
-        places.sort_by_key(|(v, _)| *v);
-        places.dedup_by_key(|(v, _)| *v);
-        let mut vertices: Vec<u32> = pairs.iter().flat_map(|&(f, g)| [f, g]).flat_map(|f| self.mesh.face(f)).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        for v in vertices {
-            if let Ok(k) = places.binary_search_by_key(&v, |(v, _)| *v) {
-                self.place(v, places[k].1);
-                if self.input.points.get(v as usize) == Some(&places[k].1) {
-                    self.vertices[v as usize].moved = false;
-                }
-            }
-            self.vertices[v as usize].pinned = true;
-            self.touch(v);
+    /// Remembers the surface as it is, for what may have to be put back.
+    pub(super) fn keep_state(&mut self) {
+        if self.contacts.freeze {
+            let state = (self.mesh.clone(), self.vertices.clone(), self.touched.clone());
+            self.contacts.before = Some(Box::new(state));
         }
-        self.contacts.places.clear();
+    }
+
+    /// Puts the surface back to where it was at the last search, and pins the vertices about the faces that cross.
+    fn put_back(&mut self, pairs: &[(u32, u32)]) {
+        let Some(before) = self.contacts.before.take() else { return };
+        let mut stopped: Vec<u32> = pairs.iter().flat_map(|&(f, g)| [f, g]).flat_map(|f| self.mesh.face(f)).collect();
+        let around: Vec<u32> = stopped.iter().flat_map(|&v| self.mesh.neighbours(v)).collect();
+        stopped.extend(around);
+        (self.mesh, self.vertices, self.touched) = *before;
+        for v in stopped {
+            // Others are not born yet.
+            if let Some(vertex) = self.vertices.get_mut(v as usize) {
+                vertex.pinned = true;
+            }
+        }
+        self.contacts.changed.clear();
+        self.look_everywhere();
     }
 }

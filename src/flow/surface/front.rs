@@ -107,7 +107,13 @@ impl<'a> SurfaceFront<'a> {
         let from = front.mesh.points.len() as u32;
         front.cut_sharp_edges();
         front.candidates.extend(from..front.mesh.points.len() as u32);
+        front.keep_state();
         front
+    }
+
+    /// Has every vertex looked at in the next step.
+    pub(super) fn look_everywhere(&mut self) {
+        self.candidates = (0..self.mesh.points.len() as u32).filter(|&v| self.mesh.has_vertex(v)).collect();
     }
 
     pub(super) fn point(&self, v: u32) -> Point {
@@ -241,7 +247,6 @@ impl<'a> SurfaceFront<'a> {
 
     /// Puts a vertex elsewhere.
     pub(super) fn place(&mut self, v: u32, p: Point) {
-        self.contacts.remember(v, self.mesh.points[v as usize]);
         self.mesh.points[v as usize] = p;
         self.vertices[v as usize].moved = true;
         self.change_faces(v);

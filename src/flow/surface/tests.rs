@@ -1,9 +1,9 @@
 //! Exact surfaces.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::*;
-use crate::mesh::{NONE, PolygonMesh, TriangleMesh};
+use crate::mesh::{NONE, PolygonMesh, TriangleMesh, self_intersections};
 
 const R: f64 = 0.4;
 
@@ -115,7 +115,9 @@ fn fillet_errors(surface: &FlownSurface, h: f64) -> Vec<f64> {
 #[test]
 fn what_is_convex_comes_out_bit_for_bit() {
     let cube = prism(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], 1.0);
-    for mesh in [cube, turned(&profile(0.0, 0.1), 60), turned(&profile(-0.0, 0.15), 31)] {
+    let half: Vec<[f64; 2]> = (0..=10).map(|k| f64::from(k) * 0.05 * PI).map(|t| [0.5 + t.cos(), t.sin()]).collect();
+    let capsule: Vec<[f64; 2]> = half.iter().copied().chain(half.iter().rev().map(|p| [-p[0], p[1]])).collect();
+    for mesh in [cube, turned(&profile(0.0, 0.1), 60), turned(&capsule, 31)] {
         let result = closed(&mesh, 0.1);
         assert_eq!((&result.points, &result.faces), (&mesh.points, &mesh.faces));
         assert!(result.origins.iter().zip(0..).all(|(o, k)| *o == k));
@@ -232,16 +234,27 @@ fn mean_curvature_rounds_what_minimum_curvature_leaves_alone() {
 }
 
 #[test]
-fn frozen_surfaces_do_not_pass_through_themselves() {
-    // A slit narrower than the ball, closed at its ends: its walls run into each other.
-    let outline = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.15, 1.0], [1.0, 0.3], [0.85, 1.0], [0.0, 1.0]];
-    let mesh = prism(&outline, 1.0);
-    let settings = SurfaceSettings { on_contact: OnContact::Freeze, ..SurfaceSettings::new(0.08) };
-    let mut flow = SurfaceFlow::new(&mesh, Obstacle::CLOSING, SurfaceField::constant(R), &settings).unwrap();
-    flow.run(0.5 * R * R);
-    let result = flow.result();
-    let volume = TriangleMesh::new(result.points, result.faces).volume();
-    assert!(volume > mesh.volume() && volume < 2.0, "{volume}");
+fn frozen_surfaces_do_not_pass_through_what_is_in_their_way() {
+    // A small box that hovers where the fillet will be.
+    let mut mesh = angle_piece();
+    let hover = prism(&[[1.06, 1.06], [1.1, 1.06], [1.1, 1.1], [1.06, 1.1]], 0.1);
+    let first = mesh.points.len() as u32;
+    mesh.points.extend(hover.points.iter().map(|p| Point::new(p.x, p.y, p.z + 0.9)));
+    mesh.faces.extend(hover.faces.iter().map(|f| f.map(|v| v + first)));
+    let crossings = |on_contact| {
+        let settings = SurfaceSettings { on_contact, ..SurfaceSettings::new(0.1) };
+        let mut flow = SurfaceFlow::new(&mesh, Obstacle::CLOSING, SurfaceField::constant(R), &settings).unwrap();
+        flow.run(f64::INFINITY);
+        let result = flow.result();
+        let report = flow.report();
+        (report.contacts.len(), self_intersections(&TriangleMesh::new(result.points, result.faces)).len(), report.end)
+    };
+    // What goes on is past the box in the end; what stops is in it.
+    assert!(crossings(OnContact::Report).0 > 0);
+    let stopped = crossings(OnContact::Stop);
+    assert!(stopped.1 > 0 && stopped.2 == Some(End::Contact), "{stopped:?}");
+    let frozen = crossings(OnContact::Freeze);
+    assert!(frozen.0 > 0 && frozen.1 == 0, "{frozen:?}");
 }
 
 #[test]
