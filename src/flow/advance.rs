@@ -27,6 +27,8 @@ pub enum OnContact {
     Report,
     /// Stop at the first one.
     Stop,
+    /// Surfaces: put what crosses back to where it was, have it stay there, and go on; outlines: as [`OnContact::Report`].
+    Freeze,
 }
 
 /// Why a flow ended.

@@ -23,14 +23,19 @@
 //!
 //! [`Obstacle`] says which curvatures stay, [`step`] takes one semi-implicit step, [`Advance`] is the loop with its clock and
 //! its reasons to stop: all three for curves and surfaces alike, which differ in their [`Front`]. [`CurveFlow`] is the flow
-//! of outlines.
+//! of outlines, [`SurfaceFlow`] that of surfaces.
 
 mod advance;
 mod curve;
 mod obstacle;
 mod step;
+mod surface;
 
 pub use advance::{Advance, DEFAULT_TOLERANCE, End, OnContact, Status};
 pub use curve::{CurveFlow, CurveFront, DEFAULT_EDGE, DEFAULT_TIME_STEP, Field, FlowError, Report, Runs, Settings};
 pub use obstacle::{Obstacle, Way};
 pub use step::{Displaced, Factor, Front, SparseStiffness, Stiffness, System, step};
+pub use surface::{
+    DEFAULT_SURFACE_TIME_STEP, DEFAULT_SURFACE_TOLERANCE, FlownSurface, Kind, SurfaceField, SurfaceFlow,
+    SurfaceFlowError, SurfaceFront, SurfaceReport, SurfaceSettings,
+};

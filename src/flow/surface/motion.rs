@@ -1,0 +1,74 @@
+//! Where a vertex may go: outward of its faces, and no farther than they can follow.
+
+use super::SurfaceFront;
+use crate::flow::obstacle::{Obstacle, Way};
+use crate::mesh::Vector;
+
+/// A vertex goes no farther in a step than so many edge lengths.
+const STRIDE: f64 = 0.25;
+
+/// A face may become no smaller in a step, seen along its old normal, than this part of it.
+const LEAST_LEFT: f64 = 0.2;
+
+/// A step is tried at most at so many halves of its length.
+const HALVINGS: usize = 4;
+
+impl SurfaceFront<'_> {
+    /// The direction in which vertex `v` moves: of unit length, outward of all its faces if there is such a one.
+    pub(super) fn normal(&self, v: u32) -> Vector {
+        let faces: Vec<Vector> =
+            self.mesh.faces_at(v).filter_map(|f| self.mesh.area_vector(f).try_normalize(0.0)).collect();
+        let center = self.point(v);
+        let mut normal = Vector::zeros();
+        for (h, n) in self.mesh.spokes(v).zip(&faces) {
+            let (a, b) = (self.point(self.mesh.target(h)) - center, self.point(self.mesh.opposite(h)) - center);
+            normal += n * a.cross(&b).norm().atan2(a.dot(&b));
+        }
+        // Towards the worst one, a few times: smaller and smaller steps.
+        for k in 1..=8 {
+            normal = normal.try_normalize(0.0).unwrap_or_default();
+            let Some(worst) = faces.iter().min_by(|a, b| a.dot(&normal).total_cmp(&b.dot(&normal))) else { break };
+            if worst.dot(&normal) > 0.1 {
+                break;
+            }
+            normal += worst / f64::from(k);
+        }
+        normal.try_normalize(0.0).unwrap_or_default()
+    }
+
+    /// What of the displacement `d` vertex `v` takes: along its normal, to the side to which it moves, and no farther than its
+    /// faces can follow.
+    ///
+    /// So the volume between the old and the new faces at it is empty before and solid after, or the other way round.
+    pub(super) fn allowed(&self, v: u32, d: Vector) -> Vector {
+        let mut d = if self.obstacle == Obstacle::NONE {
+            d
+        } else {
+            let normal = self.normal(v);
+            let along = match self.way(v) {
+                Some(Way::Outward) => d.dot(&normal).max(0.0),
+                Some(Way::Inward) => d.dot(&normal).min(0.0),
+                None => 0.0,
+            };
+            let leads_back = self.mesh.faces_at(v).any(|f| self.mesh.area_vector(f).dot(&normal) < 0.0);
+            if leads_back { Vector::zeros() } else { normal * along }
+        };
+        let length = d.norm();
+        if length > STRIDE * self.h {
+            d *= STRIDE * self.h / length;
+        }
+        for _ in 0..HALVINGS {
+            let place = self.point(v) + d;
+            let follows = |h: u32| {
+                let (a, b) = (self.point(self.mesh.target(h)), self.point(self.mesh.opposite(h)));
+                let old = self.mesh.area_vector(self.mesh.face_of(h));
+                (a - place).cross(&(b - place)).dot(&old) >= LEAST_LEFT * old.norm_squared()
+            };
+            if self.mesh.spokes(v).all(follows) {
+                return d;
+            }
+            d *= 0.5;
+        }
+        if self.obstacle == Obstacle::NONE { Vector::zeros() } else { d }
+    }
+}
