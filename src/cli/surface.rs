@@ -1,6 +1,7 @@
 //! `clopen surface`: closing, opening and clopening of meshes, and the check of any result.
 
 mod check;
+mod flow;
 mod pins;
 mod report;
 mod work;
@@ -61,6 +62,8 @@ struct WorkArgs {
     preview: Option<PathBuf>,
     #[command(flatten)]
     field: FieldArgs,
+    #[command(flatten)]
+    flow: flow::FlowArgs,
     /// How to print the report: text goes to standard error, json to standard output
     #[arg(long, value_enum, default_value_t = FormatArg::Text)]
     format: FormatArg,
@@ -91,6 +94,8 @@ enum OrderArg {
 enum MethodArg {
     /// A ball rolls on the surface: the limit at once; what need not move stays bit for bit
     Direct,
+    /// The surface flows in time at the speed of its curvature, to the same limit: slower, with states on the way
+    Flow,
     /// Dilation and erosion on a grid, for comparison: nothing is kept
     Volume,
 }
@@ -152,6 +157,14 @@ pub(super) fn run(args: &SurfaceArgs) -> Result<ExitStatus> {
     }
 }
 
+/// `out.obj` → `out-07.obj`, the seventh of up to 99.
+fn numbered(target: &Path, k: usize, n: usize) -> PathBuf {
+    let width = n.to_string().len().max(2);
+    let stem = target.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = target.extension().unwrap_or_default().to_string_lossy();
+    target.with_file_name(format!("{stem}-{k:0width$}.{extension}"))
+}
+
 impl WorkArgs {
     fn run(&self, steps: &[Step]) -> Result<ExitStatus> {
         let target = self.output.clone().unwrap_or_else(|| PathBuf::from("-"));
@@ -164,20 +177,32 @@ impl WorkArgs {
         }
         let format = work::format_of(&target)?;
         let input = work::Input::read(&self.input, self.repair)?;
-        let done = work::apply(self, &input, steps)?;
+        let states = work::apply(self, &input, steps)?;
+        // There is one at least: each run has a last state.
+        let Some(done) = states.last() else { bail!("nothing came out") };
         let picture = self.preview.as_ref().map(|_| done.picture(&input)).transpose()?;
-        let bytes = done.write(&input, format);
-        let mut files = vec![(target.as_path(), bytes.as_slice())];
+        let names: Vec<PathBuf> = match states.len() {
+            1 => vec![target.clone()],
+            n if target == Path::new("-") => bail!("{n} frames need a name: add -o OUT.obj"),
+            n => (1..=n).map(|k| numbered(&target, k, n)).collect(),
+        };
+        for name in &names {
+            output::keep_input(&self.input, name)?;
+        }
+        let bytes: Vec<Vec<u8>> = states.iter().map(|state| state.write(&input, format)).collect();
+        let mut files: Vec<(&Path, &[u8])> =
+            names.iter().zip(&bytes).map(|(name, bytes)| (name.as_path(), bytes.as_slice())).collect();
         if let (Some(path), Some(picture)) = (&self.preview, &picture) {
             output::keep_input(&self.input, path)?;
             files.push((path, picture));
         }
         output::write_together(&files)?;
-        let report = report::Report::new(self, &input, steps, &done);
+        let report = report::Report::new(self, &input, steps, done);
         match self.format {
             FormatArg::Text => output::say(&report.lines()),
             FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
         }
-        Ok(if report.conflicts.is_empty() { ExitStatus::Done } else { ExitStatus::CheckFailed })
+        let is_sound = report.conflicts.is_empty() && report.flow.as_ref().is_none_or(flow::Flown::is_sound);
+        Ok(if is_sound { ExitStatus::Done } else { ExitStatus::CheckFailed })
     }
 }

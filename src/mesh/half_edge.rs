@@ -44,7 +44,7 @@ fn after(h: u32) -> u32 {
 
 /// The half-edge before `h` in its face.
 fn before(h: u32) -> u32 {
-    if h % 3 == 0 { h + 2 } else { h - 1 }
+    if h.is_multiple_of(3) { h + 2 } else { h - 1 }
 }
 
 impl HalfEdgeMesh {

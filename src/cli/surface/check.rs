@@ -31,7 +31,7 @@ pub(super) struct SurfaceCheckArgs {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     edge_length: Option<MeshLength>,
     /// Largest accepted distance from the true result, in edge lengths
-    #[arg(long, value_name = "NUMBER", default_value_t = 0.5, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", default_value_t = 1.0, allow_hyphen_values = true)]
     tolerance: f64,
     /// How to print the report
     #[arg(long, value_enum, default_value = "text")]

@@ -2,8 +2,10 @@
 
 use std::fmt::Write as _;
 
+use super::flow::Flown;
 use super::work::{Done, Input};
 use super::{MethodArg, Step, WorkArgs};
+use crate::flow::End;
 use crate::mesh::{NONE, TriangleMesh};
 use crate::rolling::Trouble;
 
@@ -27,6 +29,8 @@ pub(super) struct Report {
     volume_out: f64,
     /// The largest distance of the middle of an edge or face of the moved part from the closing, in edge lengths.
     largest_error_edge_lengths: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flow: Option<Flown>,
     repairs: usize,
     remarks: Vec<String>,
     pub conflicts: Vec<Place>,
@@ -54,7 +58,8 @@ impl Report {
             faces_out: done.faces.len(),
             volume_in: input.triangles.volume(),
             volume_out: result.volume(),
-            largest_error_edge_lengths: (args.method == MethodArg::Direct).then_some(done.error / done.edge),
+            largest_error_edge_lengths: done.error.map(|error| error / done.edge),
+            flow: done.flown.clone(),
             repairs: input.repairs.len(),
             remarks: input.remarks(),
             conflicts: done
@@ -90,6 +95,25 @@ impl Report {
         if let Some(error) = self.largest_error_edge_lengths {
             let _ =
                 writeln!(text, "moved faces are within {error:.3} edge lengths of the exact result at their middles");
+        }
+        if let Some(flow) = &self.flow {
+            let why = match flow.end {
+                None => "as far as was asked",
+                Some(End::Still | End::Slow) => "the limit, nothing moves any more",
+                Some(End::Contact) => "STOPPED where the surface ran into itself",
+                Some(End::Stalled) => {
+                    "STALLED, vertices go on moving, and nothing comes of it; try another --edge-length"
+                }
+                Some(End::Singular) => "STOPPED, a step could not be solved; try another --edge-length or --time-step",
+            };
+            let _ = writeln!(text, "flow for {:.4} r² in {} steps: {why}", flow.time_r2, flow.steps);
+            if let Some([x, y, z]) = flow.contacts.first() {
+                let n = flow.contacts.len();
+                let _ = writeln!(
+                    text,
+                    "CONTACT in {n} places, the first at ({x:.4}, {y:.4}, {z:.4}): the surface crosses itself"
+                );
+            }
         }
         if self.repairs > 0 {
             let _ = writeln!(text, "{} repairs", self.repairs);

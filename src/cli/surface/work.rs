@@ -113,13 +113,16 @@ pub(super) struct Done {
     pub faces: Vec<[u32; 3]>,
     pub parents: Vec<u32>,
     pub conflicts: Vec<Conflict>,
-    pub error: f64,
+    /// The largest distance from the exact result that was seen, where it was looked for.
+    pub error: Option<f64>,
     pub edge: f64,
     pub radius: f64,
+    /// How the flow went, if it was one.
+    pub flown: Option<super::flow::Flown>,
 }
 
-/// Does the steps, one after the other.
-pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Done> {
+/// Does the steps, one after the other; the states on the way of a flow that was asked for them, and the last one.
+pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Vec<Done>> {
     let diagonal = input.triangles.diagonal();
     let radius = args.radius.on(diagonal);
     let field = args.field.resolve(input, radius)?;
@@ -153,16 +156,25 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Do
         faces: input.triangles.faces.clone(),
         parents: (0..input.triangles.faces.len() as u32).collect(),
         conflicts: Vec::new(),
-        error: 0.0,
+        error: None,
         edge,
         radius,
+        flown: None,
     };
+    bar.enable_steady_tick(std::time::Duration::from_millis(100));
+    if args.method == MethodArg::Flow {
+        let states = super::flow::run(args, input, steps, &field, radius, edge, &bar);
+        bar.finish_and_clear();
+        return states;
+    }
+    if args.flow.time.is_some() {
+        bail!("--time: only a flow has states in time: add --method flow");
+    }
     for step in steps {
         bar.set_message(match step {
             Step::Close => "closing",
             Step::Open => "opening",
         });
-        bar.enable_steady_tick(std::time::Duration::from_millis(100));
         let mut mesh = TriangleMesh::new(done.points.clone(), done.faces.clone());
         if *step == Step::Open {
             mesh = mesh.reversed();
@@ -177,7 +189,8 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Do
                 };
                 close_surface(&mesh, &options)?
             }
-            MethodArg::Volume => {
+            // It has been seen to above.
+            MethodArg::Flow | MethodArg::Volume => {
                 let closed = volumetric_close(&mesh, radius, edge).context("--method volume")?;
                 ClosedSurface {
                     origins: vec![NONE; closed.points.len()],
@@ -199,12 +212,12 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Do
             points: next.points,
             faces: next.faces,
             conflicts: [done.conflicts, next.conflicts].concat(),
-            error: done.error.max(next.error),
+            error: (args.method == MethodArg::Direct).then(|| done.error.unwrap_or(0.0).max(next.error)),
             ..done
         };
     }
     bar.finish_and_clear();
-    Ok(done)
+    Ok(vec![done])
 }
 
 impl Done {

@@ -1,0 +1,167 @@
+//! `--method flow`: the surface in time.
+
+use anyhow::{Context as _, Result, bail};
+use clap::{Args, ValueEnum};
+use indicatif::ProgressBar;
+
+use super::pins::Field;
+use super::work::{Done, Input};
+use super::{Step, WorkArgs};
+use crate::flow::{
+    DEFAULT_SURFACE_TIME_STEP, End, Kind, Obstacle, OnContact, Status, SurfaceField, SurfaceFlow, SurfaceSettings,
+};
+
+/// Frames that a run may have.
+const MOST_FRAMES: u32 = 1000;
+
+/// What only a flow has.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Flow (with --method flow)")]
+pub(super) struct FlowArgs {
+    /// Stop at this time, in squares of the radius; the limit unless given
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub time: Option<f64>,
+    /// So many states evenly in time up to --time, numbered: OUT-01.obj, OUT-02.obj, ...
+    #[arg(long, value_name = "NUMBER", requires = "time")]
+    pub frames: Option<u32>,
+    /// Step in time, in squares of the edge length [default: 2; with --time 0.2]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    time_step: Option<f64>,
+    /// What drives the surface
+    #[arg(long, value_enum, default_value_t = CurvatureArg::Minimum)]
+    curvature: CurvatureArg,
+    /// What stays where it is
+    #[arg(long, value_enum, default_value_t = BoundArg::Curvature)]
+    bound: BoundArg,
+    /// What happens where the surface runs into itself
+    #[arg(long, value_enum, default_value_t = OnContactArg::Report)]
+    on_contact: OnContactArg,
+}
+
+/// Time steps of flows that are looked at on the way.
+const FINE_TIME_STEP: f64 = 0.2;
+
+/// `--curvature`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum CurvatureArg {
+    /// The smallest curvature at a place: what closing is
+    Minimum,
+    /// The mean of both, for comparison
+    Mean,
+}
+
+/// `--bound`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum BoundArg {
+    /// What is less curved than the ball
+    Curvature,
+    /// Nothing, for comparison: needs --time
+    None,
+}
+
+/// `--on-contact`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum OnContactArg {
+    /// It goes on, and the places are told
+    Report,
+    /// The flow stops there
+    Stop,
+    /// What meets stays where it did not cross, and the rest goes on
+    Freeze,
+}
+
+/// How a flow went.
+#[derive(Clone, Debug, serde::Serialize)]
+pub(super) struct Flown {
+    pub steps: u64,
+    pub time_r2: f64,
+    pub end: Option<End>,
+    pub contacts: Vec<[f64; 3]>,
+}
+
+impl Flown {
+    /// Whether it got where it was to go.
+    pub fn is_sound(&self) -> bool {
+        self.end.is_none_or(End::is_limit) && self.contacts.is_empty()
+    }
+}
+
+/// The states of the flow, the last one last.
+pub(super) fn run(
+    args: &WorkArgs,
+    input: &Input,
+    steps: &[Step],
+    field: &Field,
+    radius: f64,
+    edge: f64,
+    bar: &ProgressBar,
+) -> Result<Vec<Done>> {
+    let flow = &args.flow;
+    if let Some(time) = flow.time.filter(|t| !(*t > 0.0 && t.is_finite())) {
+        bail!("--time is {time}: it must be above zero; 0.1 is where edges have begun to fill");
+    }
+    if let Some(frames) = flow.frames.filter(|n| !(1..=MOST_FRAMES).contains(n)) {
+        bail!("--frames is {frames}: give a number from 1 to {MOST_FRAMES}");
+    }
+    if flow.bound == BoundArg::None && flow.time.is_none() {
+        bail!("--bound none: without a bound everything shrinks to nothing: say when to stop with --time 0.1");
+    }
+    let obstacle = match (flow.bound, steps) {
+        (BoundArg::None, _) => Obstacle::NONE,
+        (_, [Step::Close]) => Obstacle::CLOSING,
+        (_, [Step::Open]) => Obstacle::OPENING,
+        _ => Obstacle::CLOPENING,
+    };
+    let default_step = if flow.time.is_some() { FINE_TIME_STEP } else { DEFAULT_SURFACE_TIME_STEP };
+    let settings = SurfaceSettings {
+        time_step: flow.time_step.unwrap_or(default_step),
+        on_contact: match flow.on_contact {
+            OnContactArg::Report => OnContact::Report,
+            OnContactArg::Stop => OnContact::Stop,
+            OnContactArg::Freeze => OnContact::Freeze,
+        },
+        kind: match flow.curvature {
+            CurvatureArg::Minimum => Kind::Minimum,
+            CurvatureArg::Mean => Kind::Mean,
+        },
+        ..SurfaceSettings::new(edge)
+    };
+    let space =
+        SurfaceField { radius: Box::new(|p| (field.radius)(p)), pin_distance: Box::new(|p| (field.pin_distance)(p)) };
+    let mut flowing = SurfaceFlow::new(&input.triangles, obstacle, space, &settings).context("--method flow")?;
+    let unit = radius * radius;
+    let stops: Vec<f64> = match (flow.time, flow.frames) {
+        (None, _) => vec![f64::INFINITY],
+        (Some(time), None) => vec![time * unit],
+        (Some(time), Some(n)) => (1..=n).map(|k| time * unit * f64::from(k) / f64::from(n)).collect(),
+    };
+    let mut states = Vec::new();
+    for stop in stops {
+        while flowing.status() == Status::Going && flowing.time() < stop {
+            flowing.step(stop);
+            let (moving, largest) = flowing.last_step();
+            bar.set_message(format!(
+                "time {:.4} r², {moving} vertices move by up to {largest:.4} edge lengths",
+                flowing.time() / unit
+            ));
+        }
+        let (result, report) = (flowing.result(), flowing.report());
+        states.push(Done {
+            points: result.points,
+            origins: result.origins,
+            faces: result.faces,
+            parents: result.parents,
+            conflicts: Vec::new(),
+            error: None,
+            edge,
+            radius,
+            flown: Some(Flown {
+                steps: report.steps,
+                time_r2: report.time / unit,
+                end: report.end,
+                contacts: report.contacts.iter().map(|p| [p.x, p.y, p.z]).collect(),
+            }),
+        });
+    }
+    Ok(states)
+}
