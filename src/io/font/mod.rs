@@ -28,6 +28,7 @@ mod quadratics;
 mod restyle;
 mod settle;
 mod sfnt;
+mod stroke;
 mod tables;
 mod trace;
 mod window;

@@ -6,13 +6,14 @@
 
 use super::deviation;
 use super::grid::{Placed, Rounded};
-use super::window::{Window, strokes};
+use super::stroke::strokes;
+use super::window::Window;
 use crate::plane::{BoundaryIndex, Point, Region, Segment};
 
 /// Points of a stretch before and after the worst place.
 const HALF_LENGTH: usize = 5;
 
-/// Stretches worked on in a glyph, at most so many for every contour and some more.
+/// At most so many stretches of a glyph are worked on.
 const MOST_STRETCHES: usize = 60;
 
 /// A place is worked on again where what it exceeded the limit by fell below this part.
