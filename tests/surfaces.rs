@@ -166,7 +166,7 @@ fn what_is_pinned_stays_and_the_rest_is_closed() {
 #[test]
 fn a_gap_that_the_ball_would_tear_is_told_and_left_alone() {
     // Two plates with a gap that is open on three sides, joined along the fourth.
-    let input = triangles(&solids::blocks([16, 16, 10], 0.1, |[x, _, z]| x < 3 || z < 4 || z > 5));
+    let input = triangles(&solids::blocks([16, 16, 10], 0.1, |[x, _, z]| x < 3 || !(4..=5).contains(&z)));
     let closed = close(&input, 0.3, 0.05);
     check(&input, &closed);
     let result = TriangleMesh::new(closed.points.clone(), closed.faces.clone());

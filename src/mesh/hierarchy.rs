@@ -21,13 +21,12 @@ struct Node {
 
 impl Node {
     /// The square of the distance of `p` from the box.
+    #[inline]
     fn distance2(&self, p: &Point) -> f64 {
-        let mut sum = 0.0;
-        for k in 0..3 {
-            let d = (self.low[k] - p[k]).max(p[k] - self.high[k]).max(0.0);
-            sum += d * d;
-        }
-        sum
+        let x = (self.low.x - p.x).max(p.x - self.high.x).max(0.0);
+        let y = (self.low.y - p.y).max(p.y - self.high.y).max(0.0);
+        let z = (self.low.z - p.z).max(p.z - self.high.z).max(0.0);
+        x * x + y * y + z * z
     }
 }
 
@@ -128,13 +127,16 @@ impl Hierarchy {
                 }
                 continue;
             }
-            let [near, far] = [node.first, node.first + 1].map(|c| (c, self.nodes[c as usize].distance2(&p)));
-            let (near, far) = if near.1 <= far.1 { (near, far) } else { (far, near) };
-            for child in [far, near] {
-                if child.1 < best2 {
-                    stack[top] = child;
-                    top += 1;
-                }
+            let (left, right) = (node.first, node.first + 1);
+            let (l, r) = (self.nodes[left as usize].distance2(&p), self.nodes[right as usize].distance2(&p));
+            let ((near, n), (far, f)) = if l <= r { ((left, l), (right, r)) } else { ((right, r), (left, l)) };
+            if f < best2 {
+                stack[top] = (far, f);
+                top += 1;
+            }
+            if n < best2 {
+                stack[top] = (near, n);
+                top += 1;
             }
         }
         best.map(|(point, k, feature)| Nearest { point, distance: best2.sqrt(), face: self.faces[k as usize], feature })

@@ -14,6 +14,7 @@ pub enum Feature {
 }
 
 /// The point of the triangle that is nearest to `p`, and what it lies on.
+#[inline]
 pub fn nearest_on_triangle(p: Point, [a, b, c]: [Point; 3]) -> (Point, Feature) {
     let (ab, ac) = (b - a, c - a);
     let ap = p - a;

@@ -106,8 +106,8 @@ impl FieldArgs {
     }
 
     /// The pins with what was typed.
-    fn named_pins(&self) -> Vec<(String, Box<dyn Fn(Point) -> f64 + '_>)> {
-        let mut pins: Vec<(String, Box<dyn Fn(Point) -> f64 + '_>)> = Vec::new();
+    fn named_pins(&self) -> Vec<(String, Distance<'_>)> {
+        let mut pins: Vec<(String, Distance)> = Vec::new();
         for pin in &self.pin_box {
             pins.push((format!("--pin-box {}", typed(&pin.0)), Box::new(|p| pin.distance(p))));
         }
@@ -126,6 +126,9 @@ impl FieldArgs {
         pins
     }
 }
+
+/// How far a place is from something.
+type Distance<'a> = Box<dyn Fn(Point) -> f64 + 'a>;
 
 fn typed(numbers: &[f64]) -> String {
     numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")

@@ -4,6 +4,9 @@ use super::SurfaceFront;
 use super::front::{Vertex, is_gone};
 use crate::mesh::{HalfEdgeMesh, Hierarchy, Point, cross};
 
+/// A surface as it was: its faces, what was known of its vertices, and which faces were touched.
+type Before = (HalfEdgeMesh, Vec<Vertex>, Vec<bool>);
+
 /// What changed since contacts were last looked for.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contacts {
@@ -14,7 +17,7 @@ pub(super) struct Contacts {
     /// Faces that changed, some of them twice.
     changed: Vec<u32>,
     /// The surface when contacts were last looked for.
-    before: Option<Box<(HalfEdgeMesh, Vec<Vertex>, Vec<bool>)>>,
+    before: Option<Box<Before>>,
     /// Faces that were found to cross.
     known: Vec<bool>,
 }
