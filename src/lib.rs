@@ -32,10 +32,10 @@
 //! - [`linalg`]: the linear systems of the flow's step;
 //! - [`mesh`]: surfaces in space: half-edges, hierarchies of triangles;
 //! - [`flow`]: the flow whose limits closing and opening are, with its states on the way;
-//! - [`rolling`]: the closing, exactly: a disk rolls on the outline;
+//! - [`rolling`]: the closing, directly: a disk rolls on the outline, exactly; a ball on the surface;
 //! - [`mod@reference`]: the closing by polygon offsetting, sharing no code with `rolling`, and a witness by distances; surfaces on a grid;
 //! - [`check`]: a result against its reference; features that are lost;
-//! - [`io`]: SVG in and out, as an animation too; grey pictures in;
+//! - [`io`]: SVG in and out, as an animation too; surfaces in and out; grey pictures in; fonts;
 //! - [`cam`]: job, offset, order, toolpath; what a program's motions cut, and how long they take;
 //! - [`gcode`]: the text of programs: dialects, writer, reader, lint;
 //! - [`preview`]: pictures of drawings, of their states in a flow, of surfaces, and of programs;
