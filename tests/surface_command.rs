@@ -100,7 +100,7 @@ fn ply_tells_what_moved_and_how_far() {
     assert_eq!((after.colours.len(), after.scalars.len()), (after.points.len(), after.points.len()));
     let farthest = after.scalars.iter().copied().fold(0.0, f64::max);
     assert!((farthest - 0.3 * (2f64.sqrt() - 1.0)).abs() < 0.05, "{farthest}");
-    assert!(after.scalars.iter().any(|s| *s == 0.0));
+    assert!(after.scalars.contains(&0.0));
 }
 
 #[test]
@@ -173,6 +173,32 @@ fn a_flow_shows_its_states_and_comes_to_the_same_limit() {
     assert!(!folder.path().join("state.obj").exists());
     let output = surface(folder.path(), "close bracket.obj -r .3 --method flow --bound none -o none.obj");
     assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn an_ellipsoid_is_a_ball_on_a_squeezed_mesh() {
+    let folder = folder();
+    // Along the concave edge it is as good as the ball: the fillet is the same where the ends are far.
+    done(folder.path(), "close bracket.obj -r .3 --stretch 1,2,1 -o out.obj");
+    let (before, after) = (mesh(folder.path(), "bracket.obj"), mesh(folder.path(), "out.obj"));
+    let new = after.points.iter().filter(|p| !before.points.contains(p) && p.z > 0.3 && p.z < 0.7);
+    let on_fillet: Vec<f64> =
+        new.filter(|p| p.x > 0.81 && p.y > 0.81).map(|p| ((p.x - 1.1) / 0.3).hypot((p.y - 1.4) / 0.6) - 1.0).collect();
+    assert!(on_fillet.len() > 10);
+    assert!(on_fillet.iter().all(|off| off.abs() < 1e-3), "{on_fillet:?}");
+    let kept = after.points.iter().filter(|p| before.points.contains(p)).count();
+    assert!(kept > before.points.len() / 2);
+    assert_eq!(surface(folder.path(), "close bracket.obj -r .3 --stretch 1,0,1 -o out.obj").status.code(), Some(2));
+}
+
+#[test]
+fn meshes_have_pictures() {
+    let folder = folder();
+    let mut command = Command::cargo_bin("clopen").unwrap();
+    command.current_dir(folder.path()).args(["preview", "figure.obj", "-o", "figure.png", "--size", "300"]);
+    assert_eq!(command.output().unwrap().status.code(), Some(0));
+    let picture = tiny_skia::Pixmap::decode_png(&fs::read(folder.path().join("figure.png")).unwrap()).unwrap();
+    assert_eq!(picture.width().max(picture.height()), 300);
 }
 
 #[test]

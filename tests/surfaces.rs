@@ -52,7 +52,7 @@ fn a_concave_edge_gets_a_fillet_of_the_radius() {
     let input = triangles(&solids::bracket());
     let r = 0.3;
     let mut means = Vec::new();
-    for edge in [0.05, 0.025] {
+    for edge in [0.06, 0.04] {
         let closed = close(&input, r, edge);
         check(&input, &closed);
         assert!(closed.conflicts.is_empty(), "{:?}", closed.conflicts.first());
@@ -62,8 +62,10 @@ fn a_concave_edge_gets_a_fillet_of_the_radius() {
         let moved = closed.points.iter().zip(&closed.origins).filter(|(p, v)| **v == NONE && inner(p));
         let mut on_fillet = 0;
         for (p, _) in moved {
-            let is_flat = p.x < 0.8 + 1e-9 && p.y > 0.8 + r - 1e-6 || p.y < 0.8 + 1e-9 && p.x > 0.8 + r - 1e-6;
-            assert!(is_flat || off(p) < 0.02, "{p} is {} edges off", off(p));
+            // New vertices of the input's own faces stay where the chords of a fillet would not tell them from it.
+            let is_flat = p.x < 0.8 + 1e-12 || p.y < 0.8 + 1e-12;
+            let beyond = p.x > 0.8 + r || p.y > 0.8 + r;
+            assert!(beyond || off(p) < if is_flat { 0.05 } else { 1e-4 }, "{p} is {} edges off", off(p));
             on_fillet += usize::from(!is_flat);
         }
         assert!(on_fillet > 50);
@@ -80,7 +82,7 @@ fn a_concave_edge_gets_a_fillet_of_the_radius() {
         means.push(offs.iter().sum::<f64>() / offs.len() as f64 * edge);
         assert!(offs.iter().all(|o| *o < 0.05), "{:?}", offs.iter().copied().fold(0.0, f64::max));
     }
-    assert!(means[1] < 0.4 * means[0], "the error falls with the square of the edge: {means:?}");
+    assert!(means[1] < 0.55 * means[0], "the error falls with the square of the edge: {means:?}");
 }
 
 #[test]

@@ -40,7 +40,7 @@ enum Command {
     Clopen(clopen::ClopenArgs),
     /// Compare a closed or opened drawing with an independent reference
     Check(check::CheckArgs),
-    /// Draw a picture of a drawing (SVG) or of a program (anything else)
+    /// Draw a picture of a drawing (SVG), of a mesh (OBJ, STL, PLY) or of a program (anything else)
     Preview(preview::PreviewArgs),
     /// Set a line of text and close or open its letters
     Text(text::TextArgs),

@@ -8,14 +8,16 @@ use clap::Args;
 use super::ExitStatus;
 use super::input::{self, ReadArgs};
 use super::output;
+use super::surface::read_polygons;
 use crate::gcode;
-use crate::preview::{self, DEFAULT_SIZE, Scene};
+use crate::io::mesh::MeshFormat;
+use crate::preview::{self, DEFAULT_SIZE, MeshStyle, Scene};
 use crate::units::Length;
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
 pub(super) struct PreviewArgs {
-    /// A drawing (SVG) or a program; - is standard input
+    /// A drawing (SVG), a mesh (OBJ, STL or PLY, by its name) or a program; - is standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Where the picture goes, PNG; beside the file unless given
@@ -39,12 +41,29 @@ pub(super) struct PreviewArgs {
 /// # Errors
 /// Where the file cannot be read or the picture not written.
 pub(super) fn run(args: &PreviewArgs) -> Result<ExitStatus> {
+    if MeshFormat::of_path(&args.file).is_some() {
+        return mesh(args);
+    }
     let bytes = input::read_bytes(&args.file)?;
     // A drawing begins with markup, whatever its name; a program never does.
     let is_svg = bytes.trim_ascii_start().first() == Some(&b'<') || bytes.starts_with(b"\xef\xbb\xbf<");
     let target = args.output.clone().unwrap_or_else(|| beside(&args.file, is_svg));
     output::keep_input(&args.file, &target)?;
     let picture = if is_svg { drawing(args, &bytes)? } else { program(args, bytes)? };
+    output::write(&target, &picture)?;
+    if target != Path::new("-") {
+        output::say(&format!("wrote {}\n", target.display()));
+    }
+    Ok(ExitStatus::Done)
+}
+
+fn mesh(args: &PreviewArgs) -> Result<ExitStatus> {
+    let target = args.output.clone().unwrap_or_else(|| args.file.with_extension("png"));
+    output::keep_input(&args.file, &target)?;
+    let polygons = read_polygons(&args.file)?;
+    let colours = Some(polygons.colours.as_slice()).filter(|c| c.len() == polygons.points.len());
+    let style = MeshStyle { colours, size: args.size, ..MeshStyle::default() };
+    let picture = preview::mesh(&polygons.triangulated(), &style).with_context(|| args.file.display().to_string())?;
     output::write(&target, &picture)?;
     if target != Path::new("-") {
         output::say(&format!("wrote {}\n", target.display()));

@@ -14,6 +14,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use super::check::FormatArg;
 use super::{ExitStatus, output};
 use pins::FieldArgs;
+pub(super) use work::read_polygons;
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
@@ -47,6 +48,9 @@ struct WorkArgs {
     /// displacement for each vertex
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
+    /// Roll an ellipsoid in place of the ball: its half axes along x, y and z are the radius times these numbers
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    stretch: Option<pins::Stretch>,
     /// Length of edges where the surface moves; found from the radius and the mesh unless given
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     edge_length: Option<MeshLength>,

@@ -8,7 +8,7 @@ use clap::Args;
 use super::MeshLength;
 use crate::mesh::{Hierarchy, Point};
 
-use super::work::Input;
+use super::work::{Input, scaled};
 
 /// Radii and pins.
 #[derive(Clone, Debug, Default, Args)]
@@ -43,6 +43,34 @@ pub(super) struct Field<'a> {
     pub pin_distance: Box<dyn Fn(Point) -> f64 + Sync + 'a>,
     pub smallest: f64,
     pub largest: f64,
+}
+
+impl<'a> Field<'a> {
+    /// The field on a mesh that is squeezed by these numbers, so that the ellipsoid with such half axes is a ball.
+    pub fn stretched(self, by: [f64; 3]) -> Field<'a> {
+        let most = by.iter().copied().fold(0.0, f64::max);
+        let Field { radius, pin_distance, smallest, largest } = self;
+        Field {
+            radius: Box::new(move |p| radius(scaled(p, by))),
+            // No farther than it is in any direction.
+            pin_distance: Box::new(move |p| pin_distance(scaled(p, by)) / most),
+            smallest,
+            largest,
+        }
+    }
+}
+
+/// Factors along the axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stretch(pub [f64; 3]);
+
+impl FromStr for Stretch {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Stretch, String> {
+        let found = numbers::<3>(text).filter(|n| n.iter().all(|x| (1e-3..=1e3).contains(x)));
+        found.map(Stretch).ok_or_else(|| "write three numbers from 0.001 to 1000, for example 1,1,2".to_owned())
+    }
 }
 
 impl FieldArgs {

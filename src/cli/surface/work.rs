@@ -52,7 +52,7 @@ pub(super) fn format_of(path: &Path) -> Result<MeshFormat> {
 }
 
 /// The polygons in a file.
-pub(super) fn read_polygons(path: &Path) -> Result<PolygonMesh> {
+pub(in crate::cli) fn read_polygons(path: &Path) -> Result<PolygonMesh> {
     let bytes = input::read_bytes(path)?;
     let format = MeshFormat::of_path(path).unwrap_or_else(|| MeshFormat::of_bytes(&bytes));
     files::read(&bytes, format).with_context(|| path.display().to_string())
@@ -125,7 +125,14 @@ pub(super) struct Done {
 pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Vec<Done>> {
     let diagonal = input.triangles.diagonal();
     let radius = args.radius.on(diagonal);
-    let field = args.field.resolve(input, radius)?;
+    let mut field = args.field.resolve(input, radius)?;
+    let stretch = args.stretch.map_or([1.0; 3], |s| s.0);
+    if stretch != [1.0; 3] {
+        field = field.stretched(stretch);
+        if args.method != MethodArg::Direct {
+            bail!("--stretch: only --method direct rolls an ellipsoid");
+        }
+    }
     for r in [field.smallest, field.largest] {
         if !(RADII[0] * diagonal..=RADII[1] * diagonal).contains(&r) {
             bail!(
@@ -175,7 +182,8 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
             Step::Close => "closing",
             Step::Open => "opening",
         });
-        let mut mesh = TriangleMesh::new(done.points.clone(), done.faces.clone());
+        let squeezed = done.points.iter().map(|p| scaled(*p, stretch.map(|s| 1.0 / s))).collect();
+        let mut mesh = TriangleMesh::new(squeezed, done.faces.clone());
         if *step == Step::Open {
             mesh = mesh.reversed();
         }
@@ -204,6 +212,10 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
         if *step == Step::Open {
             next.faces.iter_mut().for_each(|f| f.swap(1, 2));
         }
+        // What did not move has the bits that it had before it was squeezed.
+        for (p, &origin) in next.points.iter_mut().zip(&next.origins) {
+            *p = if origin == NONE { scaled(*p, stretch) } else { done.points[origin as usize] };
+        }
         // Faces that did not change are those of the input, corner by corner.
         let through = |of: &[u32], k: u32| if k == NONE { NONE } else { of[k as usize] };
         done = Done {
@@ -218,6 +230,11 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
     }
     bar.finish_and_clear();
     Ok(vec![done])
+}
+
+/// A point with each coordinate times a number.
+pub(super) fn scaled(p: Point, by: [f64; 3]) -> Point {
+    Point::new(p.x * by[0], p.y * by[1], p.z * by[2])
 }
 
 impl Done {

@@ -67,11 +67,11 @@ pub struct SurfaceOptions<'a> {
 pub struct ClosedSurface {
     /// Vertices: those of the input first, in its order, as far as they are left.
     pub points: Vec<Point>,
-    /// The vertex of the input that each of them is, bit for bit; [`NONE`] for those that moved or are new.
+    /// The vertex of the input that each of them is, bit for bit; [`NONE`](crate::mesh::NONE) for those that moved or are new.
     pub origins: Vec<u32>,
     /// Faces, those of the input first, in its order, as far as they are left.
     pub faces: Vec<[u32; 3]>,
-    /// The face of the input that each of them is; [`NONE`] for those that changed.
+    /// The face of the input that each of them is; [`NONE`](crate::mesh::NONE) for those that changed.
     pub parents: Vec<u32>,
     /// What could not be done.
     pub conflicts: Vec<Conflict>,
