@@ -86,6 +86,29 @@ fn a_concave_edge_gets_a_fillet_of_the_radius() {
 }
 
 #[test]
+fn a_concave_edge_between_two_vertices_that_stay_is_found() {
+    // The L of twelve vertices: both ends of its concave edge are touched by balls that lie on the end faces.
+    let mut mesh = PolygonMesh::default();
+    let outline = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    for z in [0.0, 1.0] {
+        mesh.points.extend(outline.map(|[x, y]| Point::new(x, y, z)));
+    }
+    mesh.push(&[5, 4, 3, 2, 1, 0]);
+    mesh.push(&[6, 7, 8, 9, 10, 11]);
+    for k in 0..6 {
+        let next = (k + 1) % 6;
+        mesh.push(&[k, next, next + 6, k + 6]);
+    }
+    let input = triangles(&mesh);
+    let closed = close(&input, 0.3, 0.05);
+    check(&input, &closed);
+    let result = TriangleMesh::new(closed.points.clone(), closed.faces.clone());
+    // Between the ends the fillet adds (1 - pi / 4) r² to the section.
+    let gained = (result.volume() - input.volume()) / ((1.0 - std::f64::consts::FRAC_PI_4) * 0.09);
+    assert!(gained > 0.6 && gained < 1.0 || !closed.conflicts.is_empty(), "{gained}");
+}
+
+#[test]
 fn the_neck_between_two_balls_is_a_piece_of_a_torus() {
     let input = triangles(&solids::two_spheres());
     let (r, edge) = (0.5, 0.08);

@@ -142,6 +142,7 @@ fn cover<'a>(
     let mut roll = Roll { normals: input.vertex_normals(), threads: options.threads };
     // What the whole ball can touch, smaller ones can.
     let mut moving: Vec<u32> = roll.untouched(&covering, (0..input.points.len() as u32).collect());
+    roll.cut_edges_between(&mut covering, &mut moving);
     let radii = input.points.iter().map(|p| field(*p)).fold(0.0, f64::max) / options.edge;
     let levels = ((radii / FIRST_RADIUS).ln() / GROWTH.ln()).floor().max(0.0) as i32;
     for level in (0..=levels).rev() {
@@ -178,6 +179,37 @@ impl Roll {
                 && covering.ground.hierarchy.is_nearer(x + normal * r, r * (1.0 - TOUCHING))
         });
         among.into_iter().zip(is_untouched).filter(|(_, is)| *is).map(|(v, _)| v).collect()
+    }
+
+    /// Cuts long edges whose middles the ball does not touch, though it touches both ends: a concave edge of a coarse mesh
+    /// begins and ends in vertices that stay.
+    fn cut_edges_between(&mut self, covering: &mut Covering, moving: &mut Vec<u32>) {
+        let mut moves = vec![false; covering.state.len()];
+        let targets = parallel::map(moving, self.threads, |&v| self.target(covering, v));
+        for (&v, target) in moving.iter().zip(&targets) {
+            moves[v as usize] = !matches!(target, Target::Stays);
+        }
+        let mesh = &covering.mesh;
+        let edges: Vec<u32> = (0..3 * mesh.face_count() as u32)
+            .filter(|&h| mesh.is_edge(h) && !moves[mesh.origin(h) as usize] && !moves[mesh.target(h) as usize])
+            .filter(|&h| mesh.length(h) > remesh::LONGEST * covering.edge)
+            .collect();
+        let hidden = parallel::map(&edges, self.threads, |&h| {
+            let unit = |x: u32| mesh.area_vector(mesh.face_of(x)).try_normalize(0.0).unwrap_or_default();
+            let normal = (unit(h) + unit(mesh.twin(h)?)).try_normalize(0.0)?;
+            let middle = nalgebra::center(&covering.point(mesh.origin(h)), &covering.point(mesh.target(h)));
+            let r = covering.radius(middle);
+            let reach = r - DEAD_BAND * covering.edge;
+            let is_hidden = reach > 0.0 && covering.ground.hierarchy.is_nearer(middle + normal * r, reach);
+            is_hidden.then_some((middle, normal))
+        });
+        for (h, found) in edges.into_iter().zip(hidden) {
+            let Some((middle, normal)) = found else { continue };
+            let w = covering.split(h, middle, State::Kept);
+            self.normals.resize(covering.state.len(), Vector::zeros());
+            self.normals[w as usize] = normal;
+            moving.push(w);
+        }
     }
 
     /// Moves the surface to where a ball of the covering's radius touches.
