@@ -27,7 +27,7 @@ pub enum OnContact {
     Report,
     /// Stop at the first one.
     Stop,
-    /// Surfaces: put what crosses back to where it was, have it stay there, and go on; outlines: as [`OnContact::Report`].
+    /// Surfaces: make no move that takes the surface through itself, and go on with the others; outlines: as [`OnContact::Report`].
     Freeze,
 }
 
@@ -61,6 +61,16 @@ pub enum Status {
     Going,
     /// It has ended.
     Ended(End),
+}
+
+impl Status {
+    /// Why it ended; `None` while there is more to come.
+    pub fn end(self) -> Option<End> {
+        match self {
+            Status::Going => None,
+            Status::Ended(end) => Some(end),
+        }
+    }
 }
 
 /// A front on its way.

@@ -71,11 +71,11 @@ pub trait Stiffness {
     /// What solves with it.
     type Factor: Factor;
 
-    /// Factors M + tau L.
+    /// Factors M + tau L; `last` is what came out of that with another mass.
     ///
     /// # Errors
     /// Where that is not positive definite.
-    fn factor(&self, mass: &[f64], tau: f64) -> Result<Self::Factor, Singular>;
+    fn factor(&self, mass: &[f64], tau: f64, last: Option<Self::Factor>) -> Result<Self::Factor, Singular>;
 }
 
 /// A factored system.
@@ -102,10 +102,13 @@ const LANDED: f64 = 0.05;
 pub fn step<const D: usize, F: Front<D>>(front: &mut F, tau: f64) -> Result<Option<Displaced>, Singular> {
     let Some(System { mut mass, stiffness, force, beyond }) = front.release() else { return Ok(None) };
     let mut d = Vec::new();
+    let mut last = None;
     for landing in 0..=LANDINGS {
         d.clear();
         d.extend(force.iter().map(|f| f.map(|x| tau * x)));
-        stiffness.factor(&mass, tau)?.solve(&mut d);
+        let factor = stiffness.factor(&mass, tau, last.take())?;
+        factor.solve(&mut d);
+        last = Some(factor);
         if d.as_flattened().iter().any(|d| !d.is_finite()) {
             return Err(Singular);
         }
@@ -134,10 +137,14 @@ pub struct SparseStiffness(pub Vec<Entry>);
 impl Stiffness for SparseStiffness {
     type Factor = SparseCholesky;
 
-    fn factor(&self, mass: &[f64], tau: f64) -> Result<SparseCholesky, Singular> {
+    fn factor(&self, mass: &[f64], tau: f64, last: Option<SparseCholesky>) -> Result<SparseCholesky, Singular> {
         let stiff = self.0.iter().map(|e| Entry { value: tau * e.value, ..*e });
         let masses = mass.iter().enumerate().map(|(k, m)| Entry { row: k, column: k, value: *m });
-        SparseCholesky::new(mass.len(), &stiff.chain(masses).collect::<Vec<_>>())
+        let entries: Vec<Entry> = stiff.chain(masses).collect();
+        match last {
+            Some(last) => last.with(&entries),
+            None => SparseCholesky::new(mass.len(), &entries),
+        }
     }
 }
 

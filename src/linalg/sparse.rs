@@ -2,7 +2,7 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky};
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::Singular;
@@ -22,6 +22,9 @@ pub struct Entry {
 /// so that the digits depend on the matrix alone.
 #[derive(Debug)]
 pub struct SparseCholesky {
+    /// Where the entries of the matrix go.
+    pattern: SymbolicSparseColMat<u32>,
+    order: Argsort<u32>,
     symbolic: SymbolicCholesky<u32>,
     factor: Vec<f64>,
 }
@@ -32,24 +35,42 @@ impl SparseCholesky {
     /// # Errors
     /// Where the matrix is not positive definite or an entry is out of place.
     pub fn new(n: usize, entries: &[Entry]) -> Result<SparseCholesky, Singular> {
-        // A square root of infinity is no error to the factorization.
-        if entries.iter().any(|e| !e.value.is_finite() || e.row < e.column) {
+        if entries.iter().any(|e| e.row < e.column) {
             return Err(Singular);
         }
-        let triplets: Vec<Triplet<u32, u32, f64>> =
-            entries.iter().map(|e| Triplet::new(e.row as u32, e.column as u32, e.value)).collect();
-        let matrix = SparseColMat::<u32, f64>::try_new_from_triplets(n, n, &triplets).map_err(|_| Singular)?;
-        let matrix = matrix.as_ref();
+        let places: Vec<Pair<u32, u32>> =
+            entries.iter().map(|e| Pair { row: e.row as u32, col: e.column as u32 }).collect();
+        let (pattern, order) =
+            SymbolicSparseColMat::<u32>::try_new_from_indices(n, n, &places).map_err(|_| Singular)?;
         let symbolic =
-            factorize_symbolic_cholesky(matrix.symbolic(), Side::Lower, SymmetricOrdering::Amd, Default::default())
+            factorize_symbolic_cholesky(pattern.as_ref(), Side::Lower, SymmetricOrdering::Amd, Default::default())
                 .map_err(|_| Singular)?;
-        let mut factor = vec![0.0; symbolic.len_val()];
+        let factor = vec![0.0; symbolic.len_val()];
+        SparseCholesky { pattern, order, symbolic, factor }.with(entries)
+    }
+
+    /// Factors another matrix, whose entries are in the same places in the same order.
+    ///
+    /// # Errors
+    /// Where the matrix is not positive definite.
+    ///
+    /// # Panics
+    /// Where there are fewer entries than there were.
+    pub fn with(mut self, entries: &[Entry]) -> Result<SparseCholesky, Singular> {
+        // A square root of infinity is no error to the factorization.
+        if entries.iter().any(|e| !e.value.is_finite()) {
+            return Err(Singular);
+        }
+        let values: Vec<f64> = entries.iter().map(|e| e.value).collect();
+        let matrix =
+            SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &values).map_err(|_| Singular)?;
+        let symbolic = &self.symbolic;
         let mut buffer = MemBuffer::new(symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()));
         let stack = MemStack::new(&mut buffer);
         symbolic
             .factorize_numeric_llt::<f64>(
-                &mut factor,
-                matrix,
+                &mut self.factor,
+                matrix.as_ref(),
                 Side::Lower,
                 Default::default(),
                 Par::Seq,
@@ -57,7 +78,7 @@ impl SparseCholesky {
                 Default::default(),
             )
             .map_err(|_| Singular)?;
-        Ok(SparseCholesky { symbolic, factor })
+        Ok(self)
     }
 
     /// Solves in place: `x` is the right-hand side, one row for each unknown, and becomes the solution.

@@ -242,10 +242,7 @@ impl<'a> CurveFlow<'a> {
         Report {
             steps: self.advance.steps,
             time: self.advance.time,
-            end: match self.status() {
-                Status::Going => None,
-                Status::Ended(end) => Some(end),
-            },
+            end: self.status().end(),
             moving: self.advance.last.moving,
             largest: self.advance.last.largest,
             swept: self.advance.swept,

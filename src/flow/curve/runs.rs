@@ -50,7 +50,7 @@ impl Runs {
 impl Stiffness for Runs {
     type Factor = Chains;
 
-    fn factor(&self, mass: &[f64], tau: f64) -> Result<Chains, Singular> {
+    fn factor(&self, mass: &[f64], tau: f64, _: Option<Chains>) -> Result<Chains, Singular> {
         let mut chains = Chains::default();
         for (range, closure) in self.ranges() {
             let row = |k: usize| (mass[k] + tau * (self.before[k] + self.after[k]), -tau * self.after[k]);

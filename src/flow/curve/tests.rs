@@ -27,8 +27,8 @@ fn chains_and_the_sparse_solver_agree_on_the_step() {
     for step in 0..50 {
         let System { mass, stiffness, force, .. } = front.release().unwrap();
         let (mut chains, mut sparse) = (force.clone(), force);
-        stiffness.factor(&mass, tau).unwrap().solve(&mut chains);
-        stiffness.to_sparse().factor(&mass, tau).unwrap().solve(&mut sparse);
+        stiffness.factor(&mass, tau, None).unwrap().solve(&mut chains);
+        stiffness.to_sparse().factor(&mass, tau, None).unwrap().solve(&mut sparse);
         let largest = chains.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         assert!(largest > 0.0);
         for (a, b) in chains.as_flattened().iter().zip(sparse.as_flattened()) {
