@@ -13,10 +13,12 @@ mod half_spaces;
 mod parallel;
 mod remesh;
 mod result;
+mod roller;
 
 pub use conflicts::{Conflict, Trouble};
 use contact::{Ground, Rest};
 use covering::{Covering, State};
+pub use roller::{Roller, Survey, Touch};
 
 use crate::mesh::{HalfEdgeMesh, Hierarchy, NotManifold, Point, TriangleMesh, Vector};
 
