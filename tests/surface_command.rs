@@ -9,7 +9,7 @@ use std::process::Output;
 
 use assert_cmd::Command;
 use clopen::io::mesh::{MeshFormat, read, write};
-use clopen::mesh::PolygonMesh;
+use clopen::mesh::{PolygonMesh, Vector, self_intersections};
 use serde_json::Value;
 
 fn folder() -> tempfile::TempDir {
@@ -207,4 +207,74 @@ fn the_volumetric_method_is_there_for_comparison() {
     let report = json(&done(folder.path(), "close bracket.obj -r .3 --method volume -o out.obj --format json"));
     assert_eq!(report["vertices_kept"], 0);
     assert!(report["volume_out"].as_f64().unwrap() > report["volume_in"].as_f64().unwrap());
+}
+
+/// The bracket, and a small box that hovers where its fillet will be.
+fn bracket_and_box() -> PolygonMesh {
+    let mut mesh = solids::bracket();
+    let hover = solids::blocks([1, 1, 2], 0.04, |_| true);
+    let first = mesh.points.len() as u32;
+    mesh.points.extend(hover.points.iter().map(|p| p + Vector::new(0.84, 0.84, 0.46)));
+    for polygon in hover.polygons() {
+        mesh.push(&polygon.iter().map(|v| v + first).collect::<Vec<_>>());
+    }
+    mesh
+}
+
+#[test]
+fn frozen_surfaces_never_pass_through_themselves() {
+    let folder = folder();
+    fs::write(folder.path().join("meet.obj"), write(&bracket_and_box(), MeshFormat::Obj)).unwrap();
+    let run = |on_contact: &str| {
+        let arguments = format!(
+            "close meet.obj -r .3 --method flow --contacts near --on-contact {on_contact} -o out.obj --format json"
+        );
+        let output = surface(folder.path(), &arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", words(&output));
+        let crossings = self_intersections(&mesh(folder.path(), "out.obj").triangulated()).len();
+        (crossings, json(&output)["flow"]["contacts"].as_array().unwrap().clone())
+    };
+    assert!(self_intersections(&bracket_and_box().triangulated()).is_empty());
+    let (stopped, _) = run("stop");
+    assert!(stopped > 0, "they do meet");
+    let (crossings, places) = run("freeze");
+    assert_eq!(crossings, 0);
+    assert!(!places.is_empty());
+    for place in places {
+        let [x, y, z] = [0, 1, 2].map(|k| place[k].as_f64().unwrap());
+        let away = |p: f64, low: f64, high: f64| (low - p).max(p - high).max(0.0);
+        let distance = away(x, 0.84, 0.88).hypot(away(y, 0.84, 0.88)).hypot(away(z, 0.46, 0.54));
+        assert!(distance < 0.1, "{place} is {distance} from where they meet");
+    }
+}
+
+#[test]
+fn what_no_method_can_do_is_told_and_crosses_nothing() {
+    let folder = folder();
+    // A plate with a tunnel that the ball cannot pass: its closing has no tunnel, a surface that flows always has.
+    let plate = solids::blocks([9, 9, 4], 0.1, |[x, y, _]| x != 4 || y != 4);
+    fs::write(folder.path().join("plate.obj"), write(&plate, MeshFormat::Obj)).unwrap();
+    let output = surface(folder.path(), "close plate.obj -r .2 -o out.obj --format json");
+    assert_eq!(output.status.code(), Some(1), "{}", words(&output));
+    let report = json(&output);
+    assert!(!report["conflicts"].as_array().unwrap().is_empty());
+    let choice = &report["choices"][0];
+    assert!(choice["because"].as_str().unwrap().contains("farther than"), "{choice}");
+    assert!(self_intersections(&mesh(folder.path(), "out.obj").triangulated()).is_empty());
+    let report = json(&done(folder.path(), "close bracket.obj -r .3 -o out.obj --format json"));
+    assert_eq!(report["choices"][0]["used"], "direct");
+}
+
+#[test]
+fn a_flow_lands_on_the_ball_unless_told_to_end_by_curvature() {
+    let folder = folder();
+    let report =
+        json(&done(folder.path(), "close bracket.obj -r .3 --method flow --edge-length .05 -o out.obj --format json"));
+    let error = report["largest_error_edge_lengths"].as_f64().unwrap();
+    assert!(error < 0.5, "{report}");
+    let near = "close bracket.obj -r .3 --method flow --edge-length .05 --contacts near -o near.obj --format json";
+    assert!(json(&surface(folder.path(), near))["largest_error_edge_lengths"].is_null());
+    let output = surface(folder.path(), "clopen bracket.obj -r .3 --method flow --contacts all -o out.obj");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(words(&output).contains("--contacts near"), "{}", words(&output));
 }

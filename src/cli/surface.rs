@@ -1,6 +1,7 @@
 //! `clopen surface`: closing, opening and clopening of meshes, and the check of any result.
 
 mod check;
+mod choose;
 mod flow;
 mod pins;
 mod report;
@@ -55,7 +56,7 @@ struct WorkArgs {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     edge_length: Option<MeshLength>,
     /// How the result is found
-    #[arg(long, value_enum, default_value_t = MethodArg::Direct)]
+    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
     /// Mend what can be mended without a choice: faces that are duplicates or degenerate, faces oriented against their
     /// neighbours, vertices without faces
@@ -96,6 +97,8 @@ enum OrderArg {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 enum MethodArg {
+    /// Direct; where that leaves something undone also flow, and of the two what the ball finds nearer to the exact result
+    Auto,
     /// A ball rolls on the surface: the limit at once; what need not move stays bit for bit
     Direct,
     /// The surface flows in time at the speed of its curvature, to the same limit: slower, with states on the way

@@ -36,6 +36,6 @@ pub use curve::{CurveFlow, CurveFront, DEFAULT_EDGE, DEFAULT_TIME_STEP, Field, F
 pub use obstacle::{Obstacle, Way};
 pub use step::{Displaced, Factor, Front, SparseStiffness, Stiffness, System, step};
 pub use surface::{
-    DEFAULT_SURFACE_TIME_STEP, DEFAULT_SURFACE_TOLERANCE, FlownSurface, Kind, SurfaceField, SurfaceFlow,
-    SurfaceFlowError, SurfaceFront, SurfaceReport, SurfaceSettings,
+    Contact, DEFAULT_SURFACE_TIME_STEP, DEFAULT_SURFACE_TOLERANCE, FlownSurface, Kind, Landing, SurfaceField,
+    SurfaceFlow, SurfaceFlowError, SurfaceFront, SurfaceReport, SurfaceSettings,
 };

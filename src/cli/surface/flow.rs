@@ -4,12 +4,16 @@ use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
+use super::choose::{OFF, threads};
 use super::pins::Field;
 use super::work::{Done, Input};
 use super::{Step, WorkArgs};
 use crate::flow::{
-    DEFAULT_SURFACE_TIME_STEP, End, Kind, Obstacle, OnContact, Status, SurfaceField, SurfaceFlow, SurfaceSettings,
+    Contact, DEFAULT_SURFACE_TIME_STEP, End, Kind, Landing, Obstacle, OnContact, Status, SurfaceField, SurfaceFlow,
+    SurfaceSettings,
 };
+use crate::mesh::TriangleMesh;
+use crate::rolling::{Roller, Touch};
 
 /// Frames that a run may have.
 const MOST_FRAMES: u32 = 1000;
@@ -33,10 +37,16 @@ pub(super) struct FlowArgs {
     /// What stays where it is
     #[arg(long, value_enum, default_value_t = BoundArg::Curvature)]
     bound: BoundArg,
+    /// Where the surface stops [default: all; near with --time, --curvature mean, --bound none, and for clopen]
+    #[arg(long, value_enum)]
+    contacts: Option<ContactsArg>,
     /// What happens where the surface runs into itself
-    #[arg(long, value_enum, default_value_t = OnContactArg::Report)]
+    #[arg(long, value_enum, default_value_t = OnContactArg::Freeze)]
     on_contact: OnContactArg,
 }
+
+/// Near a pin, the radius of a flow is this part of the distance from it, as [`SurfaceField`] says.
+pub(super) const PIN_EASE: f64 = 0.7;
 
 /// Time steps of flows that are looked at on the way.
 const FINE_TIME_STEP: f64 = 0.2;
@@ -59,6 +69,15 @@ enum BoundArg {
     None,
 }
 
+/// `--contacts`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ContactsArg {
+    /// Where its curvature is the ball's: seen along the surface, as in the paper
+    Near,
+    /// On the ball itself, which touches the surface wherever it is in space
+    All,
+}
+
 /// `--on-contact`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum OnContactArg {
@@ -66,7 +85,7 @@ enum OnContactArg {
     Report,
     /// The flow stops there
     Stop,
-    /// What meets stays where it did not cross, and the rest goes on
+    /// No move is made that takes the surface through itself; where that holds it up is told
     Freeze,
 }
 
@@ -77,12 +96,29 @@ pub(super) struct Flown {
     pub time_r2: f64,
     pub end: Option<End>,
     pub contacts: Vec<[f64; 3]>,
+    /// Faces whose middles are farther than an edge length from the exact result, for a flow that was to end there.
+    pub short: Vec<[f64; 3]>,
 }
 
 impl Flown {
     /// Whether it got where it was to go.
     pub fn is_sound(&self) -> bool {
-        self.end.is_none_or(End::is_limit) && self.contacts.is_empty()
+        self.end.is_none_or(End::is_limit) && self.contacts.is_empty() && self.short.is_empty()
+    }
+}
+
+/// The field of a flow, which lands on the ball if there is one that rolls.
+pub(super) fn space<'a>(field: &'a Field, roller: Option<Roller>) -> SurfaceField<'a> {
+    let contact = roller.map(|roller| -> Contact<'a> {
+        Box::new(move |p, normal, radius| {
+            let Touch { point, normal, gap } = roller.touch(p, normal, radius)?;
+            Some(Landing { point, normal, gap })
+        })
+    });
+    SurfaceField {
+        radius: Box::new(|p| (field.radius)(p)),
+        pin_distance: Box::new(|p| (field.pin_distance)(p)),
+        contact,
     }
 }
 
@@ -126,8 +162,17 @@ pub(super) fn run(
         },
         ..SurfaceSettings::new(edge)
     };
-    let space =
-        SurfaceField { radius: Box::new(|p| (field.radius)(p)), pin_distance: Box::new(|p| (field.pin_distance)(p)) };
+    let can_land = obstacle != Obstacle::CLOPENING && obstacle != Obstacle::NONE && settings.kind == Kind::Minimum;
+    if flow.contacts == Some(ContactsArg::All) && !can_land {
+        bail!(
+            "--contacts all: only closing and opening end on a ball, with --curvature minimum and a bound: try --contacts near"
+        );
+    }
+    let lands = flow.contacts.map_or(can_land && flow.time.is_none(), |c| c == ContactsArg::All);
+    let is_open = obstacle == Obstacle::OPENING;
+    let solid = if is_open { input.triangles.reversed() } else { input.triangles.clone() };
+    let roller = Roller::new(&solid).context("--method flow")?;
+    let space = space(field, lands.then(|| roller.clone()));
     let mut flowing = SurfaceFlow::new(&input.triangles, obstacle, space, &settings).context("--method flow")?;
     let unit = radius * radius;
     let stops: Vec<f64> = match (flow.time, flow.frames) {
@@ -146,20 +191,28 @@ pub(super) fn run(
             ));
         }
         let (result, report) = (flowing.result(), flowing.report());
+        let survey = (lands && report.end.is_some()).then(|| {
+            let surface = TriangleMesh::new(result.points.clone(), result.faces.clone());
+            let surface = if is_open { surface.reversed() } else { surface };
+            let radius = |p| (field.radius)(p).min(PIN_EASE * (field.pin_distance)(p));
+            roller.survey(&surface, &radius, OFF * edge, threads())
+        });
         states.push(Done {
             points: result.points,
             origins: result.origins,
             faces: result.faces,
             parents: result.parents,
             conflicts: Vec::new(),
-            error: None,
+            error: survey.as_ref().map(|s| s.largest),
             edge,
             radius,
+            choices: Vec::new(),
             flown: Some(Flown {
                 steps: report.steps,
                 time_r2: report.time / unit,
                 end: report.end,
-                contacts: report.contacts.iter().map(|p| [p.x, p.y, p.z]).collect(),
+                contacts: report.contacts.iter().map(|&p| p.into()).collect(),
+                short: survey.iter().flat_map(|s| &s.off).map(|&p| p.into()).collect(),
             }),
         });
     }

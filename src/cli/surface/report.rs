@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::choose::Choice;
 use super::flow::Flown;
 use super::work::{Done, Input};
 use super::{MethodArg, Step, WorkArgs};
@@ -29,6 +30,9 @@ pub(super) struct Report {
     volume_out: f64,
     /// The largest distance of the middle of an edge or face of the moved part from the closing, in edge lengths.
     largest_error_edge_lengths: Option<f64>,
+    /// Which method each step took, and why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    choices: Vec<Choice>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flow: Option<Flown>,
     repairs: usize,
@@ -59,6 +63,7 @@ impl Report {
             volume_in: input.triangles.volume(),
             volume_out: result.volume(),
             largest_error_edge_lengths: done.error.map(|error| error / done.edge),
+            choices: if args.method == MethodArg::Auto { done.choices.clone() } else { Vec::new() },
             flow: done.flown.clone(),
             repairs: input.repairs.len(),
             remarks: input.remarks(),
@@ -92,9 +97,12 @@ impl Report {
             self.faces_out,
             100.0 * (self.volume_out / self.volume_in - 1.0),
         );
+        for choice in &self.choices {
+            let used = if choice.used == MethodArg::Flow { "flow" } else { "direct" };
+            let _ = writeln!(text, "method {used}: {}", choice.because);
+        }
         if let Some(error) = self.largest_error_edge_lengths {
-            let _ =
-                writeln!(text, "moved faces are within {error:.3} edge lengths of the exact result at their middles");
+            let _ = writeln!(text, "faces are within {error:.3} edge lengths of the exact result at their middles");
         }
         if let Some(flow) = &self.flow {
             let why = match flow.end {
@@ -111,7 +119,14 @@ impl Report {
                 let n = flow.contacts.len();
                 let _ = writeln!(
                     text,
-                    "CONTACT in {n} places, the first at ({x:.4}, {y:.4}, {z:.4}): the surface crosses itself"
+                    "CONTACT in {n} places, the first at ({x:.4}, {y:.4}, {z:.4}): the surface crosses itself, or would if it went on"
+                );
+            }
+            if let Some([x, y, z]) = flow.short.first() {
+                let n = flow.short.len();
+                let _ = writeln!(
+                    text,
+                    "SHORT in {n} places, the first at ({x:.4}, {y:.4}, {z:.4}): the surface is more than an edge length from the exact result"
                 );
             }
         }
@@ -126,7 +141,7 @@ impl Report {
             let what = match conflict.trouble {
                 Trouble::Tear => "the surface would tear",
                 Trouble::Fold => "the surface would fold",
-                Trouble::Lost => "the ball finds no rest",
+                Trouble::Lost => "the ball finds no rest, or the surface did not get there",
                 Trouble::Dip => "the surface would cut into the input",
             };
             let _ = writeln!(

@@ -11,7 +11,7 @@ use crate::io::mesh::{self as files, MeshFormat};
 use crate::mesh::{NONE, Point, PolygonMesh, Problem, Repair, Severity, TriangleMesh, problems, repair};
 use crate::preview::{self, MeshStyle};
 use crate::reference::volumetric_close;
-use crate::rolling::{ClosedSurface, Conflict, SurfaceOptions, close_surface};
+use crate::rolling::{ClosedSurface, Conflict};
 
 /// Edges are to be so many radii long: a fillet of a right angle gets ten.
 const EDGE: f64 = 1.0 / 6.0;
@@ -117,6 +117,8 @@ pub(super) struct Done {
     pub error: Option<f64>,
     pub edge: f64,
     pub radius: f64,
+    /// Which method each step took, and why.
+    pub choices: Vec<super::choose::Choice>,
     /// How the flow went, if it was one.
     pub flown: Option<super::flow::Flown>,
 }
@@ -129,8 +131,8 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
     let stretch = args.stretch.map_or([1.0; 3], |s| s.0);
     if stretch != [1.0; 3] {
         field = field.stretched(stretch);
-        if args.method != MethodArg::Direct {
-            bail!("--stretch: only --method direct rolls an ellipsoid");
+        if !matches!(args.method, MethodArg::Auto | MethodArg::Direct) {
+            bail!("--stretch: only --method auto and direct roll an ellipsoid");
         }
     }
     for r in [field.smallest, field.largest] {
@@ -166,6 +168,7 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
         error: None,
         edge,
         radius,
+        choices: Vec::new(),
         flown: None,
     };
     bar.enable_steady_tick(std::time::Duration::from_millis(100));
@@ -188,14 +191,10 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
             mesh = mesh.reversed();
         }
         let mut next = match args.method {
-            MethodArg::Direct => {
-                let options = SurfaceOptions {
-                    radius: &*field.radius,
-                    pin_distance: &*field.pin_distance,
-                    edge,
-                    threads: std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-                };
-                close_surface(&mesh, &options)?
+            MethodArg::Auto | MethodArg::Direct => {
+                let chosen = super::choose::close(args.method, &mesh, &field, edge, &bar)?;
+                done.choices.push(chosen.choice);
+                chosen.surface
             }
             // It has been seen to above.
             MethodArg::Flow | MethodArg::Volume => {
@@ -224,7 +223,7 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
             points: next.points,
             faces: next.faces,
             conflicts: [done.conflicts, next.conflicts].concat(),
-            error: (args.method == MethodArg::Direct).then(|| done.error.unwrap_or(0.0).max(next.error)),
+            error: (args.method != MethodArg::Volume).then(|| done.error.unwrap_or(0.0).max(next.error)),
             ..done
         };
     }

@@ -1,32 +1,21 @@
 //! Where the surface runs into itself.
 
 use super::SurfaceFront;
-use super::front::{Vertex, is_gone};
-use crate::mesh::{HalfEdgeMesh, Hierarchy, Point, cross};
-
-/// A surface as it was: its faces, what was known of its vertices, and which faces were touched.
-type Before = (HalfEdgeMesh, Vec<Vertex>, Vec<bool>);
+use super::front::is_gone;
+use crate::mesh::{Hierarchy, Point, cross};
 
 /// What changed since contacts were last looked for.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contacts {
-    /// The surface goes back to where it did not cross itself, and what crossed stays there.
-    freeze: bool,
     /// The faces of the input.
     pub ground: Option<Hierarchy>,
     /// Faces that changed, some of them twice.
     changed: Vec<u32>,
-    /// The surface when contacts were last looked for.
-    before: Option<Box<Before>>,
     /// Faces that were found to cross.
     known: Vec<bool>,
 }
 
 impl Contacts {
-    pub fn new(freeze: bool) -> Contacts {
-        Contacts { freeze, ..Contacts::default() }
-    }
-
     /// Remembers that a face changed.
     pub fn note(&mut self, f: u32) {
         self.changed.push(f);
@@ -83,35 +72,12 @@ impl SurfaceFront<'_> {
             }
             (known[f as usize], known[g as usize]) = (true, true);
         }
-        if self.contacts.freeze && !pairs.is_empty() {
-            self.put_back(&pairs);
-        }
-        self.keep_state();
         found
     }
 
-    /// Remembers the surface as it is, for what may have to be put back.
-    pub(super) fn keep_state(&mut self) {
-        if self.contacts.freeze {
-            let state = (self.mesh.clone(), self.vertices.clone(), self.touched.clone());
-            self.contacts.before = Some(Box::new(state));
-        }
-    }
-
-    /// Puts the surface back to where it was at the last search, and pins the vertices about the faces that cross.
-    fn put_back(&mut self, pairs: &[(u32, u32)]) {
-        let Some(before) = self.contacts.before.take() else { return };
-        let mut stopped: Vec<u32> = pairs.iter().flat_map(|&(f, g)| [f, g]).flat_map(|f| self.mesh.face(f)).collect();
-        let around: Vec<u32> = stopped.iter().flat_map(|&v| self.mesh.neighbours(v)).collect();
-        stopped.extend(around);
-        (self.mesh, self.vertices, self.touched) = *before;
-        for v in stopped {
-            // Others are not born yet.
-            if let Some(vertex) = self.vertices.get_mut(v as usize) {
-                vertex.pinned = true;
-            }
-        }
-        self.contacts.changed.clear();
-        self.look_everywhere();
+    /// Where vertices would go on if the surface did not meet itself.
+    pub(super) fn blocked(&self) -> Vec<Point> {
+        let is_blocked = |v: &u32| self.vertices[*v as usize].blocked && self.mesh.has_vertex(*v);
+        (0..self.vertices.len() as u32).filter(is_blocked).map(|v| self.point(v)).collect()
     }
 }

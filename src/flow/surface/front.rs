@@ -3,7 +3,8 @@
 //! Everything here looks at vertices that moved and their neighbours only, so a step costs what its moving set costs.
 
 use super::contact::Contacts;
-use super::curvature::{Curved, Measure, curved};
+use super::crowd::Crowd;
+use super::landing::{Approach, CAPTURE, LANDING_COST};
 use super::operators::{self, Pull};
 use super::{Kind, SurfaceField};
 use crate::flow::obstacle::{Obstacle, Way};
@@ -13,21 +14,6 @@ use crate::mesh::{HalfEdgeMesh, NONE, Point, TriangleMesh, Vector};
 /// Near a pin the radius is no more than so many times the distance from it: then a surface may turn on its way to the pin as far
 /// as it has to, and meets it smoothly. With 1 it would be a cone that turns the same at every scale.
 const EASE: f64 = 0.7;
-
-/// A vertex is let go where it is beyond the bound by more than this part of it, and by [`FITTING`] (h / r)²: what the curvature of
-/// samples of a cylinder of radius r is beyond it, by less than 0.0002 more or less, on faces of any shape.
-const DEAD_BAND: f64 = 0.003;
-const FITTING: f64 = 0.25;
-
-/// Without a bound, curvatures below this part of 1 / r are none.
-const UNBOUND_BAND: f64 = 1e-9;
-
-/// A vertex with no more edges than this has its curvature from the vertices beyond its faces as well: five fit a quadratic
-/// function whatever they are, four leave it open.
-const FEW: usize = 5;
-
-/// Unless they are farther away, in edge lengths, than this.
-const FAR: f64 = 3.0;
 
 /// Rounds of refining before a step: each halves the edges.
 const REFINEMENTS: usize = 40;
@@ -39,8 +25,14 @@ pub(super) struct Vertex {
     pub radius: f64,
     /// It stays, whatever its curvature.
     pub pinned: bool,
+    /// The last time that it was to move, the surface would have crossed itself.
+    pub blocked: bool,
     /// It is not where it was.
     pub moved: bool,
+    /// How often it was to land and did not.
+    pub missed: u8,
+    /// What contact says of it.
+    pub approach: Approach,
     /// The steps (counted from 1) in which it was last looked at and let go.
     seen: u32,
     moving: u32,
@@ -51,8 +43,8 @@ pub(super) struct Vertex {
 
 impl Vertex {
     /// One that has not been looked at.
-    pub fn new(radius: f64) -> Vertex {
-        Vertex { radius, ..Vertex::default() }
+    pub fn new(radius: f64, missed: u8) -> Vertex {
+        Vertex { radius, missed, ..Vertex::default() }
     }
 }
 
@@ -74,6 +66,11 @@ pub struct SurfaceFront<'a> {
     pub(super) moving: Vec<u32>,
     round: u32,
     pub(super) contacts: Contacts,
+    /// No move takes the surface through itself: what would is not made.
+    pub(super) is_guarded: bool,
+    pub(super) crowd: Crowd,
+    /// Vertices that are nearer to the ball than so many edge lengths land.
+    pub(super) capture: f64,
 }
 
 impl<'a> SurfaceFront<'a> {
@@ -90,7 +87,10 @@ impl<'a> SurfaceFront<'a> {
             vertices: vec![Vertex::default(); mesh.points.len()],
             touched: vec![false; mesh.face_count()],
             candidates: (0..mesh.points.len() as u32).collect(),
-            contacts: Contacts::new(freeze),
+            contacts: Contacts::default(),
+            is_guarded: freeze,
+            crowd: Crowd::new(h, mesh.face_count()),
+            capture: CAPTURE,
             moving: Vec::new(),
             round: 0,
             input,
@@ -107,13 +107,7 @@ impl<'a> SurfaceFront<'a> {
         let from = front.mesh.points.len() as u32;
         front.cut_sharp_edges();
         front.candidates.extend(from..front.mesh.points.len() as u32);
-        front.keep_state();
         front
-    }
-
-    /// Has every vertex looked at in the next step.
-    pub(super) fn look_everywhere(&mut self) {
-        self.candidates = (0..self.mesh.points.len() as u32).filter(|&v| self.mesh.has_vertex(v)).collect();
     }
 
     pub(super) fn point(&self, v: u32) -> Point {
@@ -161,58 +155,9 @@ impl<'a> SurfaceFront<'a> {
         self.vertices.get(v as usize).filter(|m| m.moving == self.round).and_then(|m| m.way)
     }
 
-    /// What a vertex that goes one way is driven by.
-    fn measure(&self, way: Way) -> Measure {
-        match (self.kind, way) {
-            (Kind::Mean, _) => Measure::Mean,
-            (Kind::Minimum, Way::Inward) if self.obstacle != Obstacle::NONE => Measure::Maximum,
-            (Kind::Minimum, _) => Measure::Minimum,
-        }
-    }
-
-    /// The curvature at `v`, with vertices at the places that `place` tells.
-    fn curved(&self, v: u32, way: Way, place: impl Fn(u32) -> Point, around: &mut Vec<Point>) -> Curved {
-        around.clear();
-        around.extend(self.mesh.neighbours(v).map(&place));
-        let ring = around.len();
-        if ring <= FEW {
-            let beyond = |h: u32| {
-                let link = 3 * (h / 3) + (h % 3 + 1) % 3;
-                self.mesh
-                    .twin(link)
-                    .map(|t| place(self.mesh.opposite(t)))
-                    .filter(|p| (p - place(v)).norm() < FAR * self.h)
-            };
-            around.extend(self.mesh.spokes(v).filter_map(beyond));
-        }
-        curved(place(v), around, ring, self.measure(way), self.vertices[v as usize].radius, self.h)
-    }
-
-    /// How far beyond the bound a vertex may rest.
-    fn band(&self, v: u32) -> f64 {
-        let radius = self.vertices[v as usize].radius;
-        if self.obstacle == Obstacle::NONE {
-            return UNBOUND_BAND / radius;
-        }
-        let part = (self.h / radius).min(1.0);
-        (DEAD_BAND + FITTING * part * part) / radius
-    }
-
-    /// Which way vertex `v` is let go, and how far beyond the bound it is.
-    fn released(&self, v: u32, around: &mut Vec<Point>) -> Option<(Way, f64)> {
-        [Way::Outward, Way::Inward].into_iter().find_map(|way| {
-            // Of bounds that are not there none is passed.
-            if self.obstacle.beyond(way, 0.0, 1.0) == f64::NEG_INFINITY {
-                return None;
-            }
-            let c = self.curved(v, way, |v| self.point(v), around);
-            let beyond = self.obstacle.beyond(way, c.curvature, c.unit);
-            (beyond > self.band(v) && beyond.is_finite()).then_some((way, beyond))
-        })
-    }
-
     /// Fills the moving set from the candidates, in their order; how far beyond the bound each is.
     fn find_moving(&mut self, candidates: &[u32]) -> Vec<f64> {
+        self.ask_ahead(candidates, self.round == 0);
         self.round += 1;
         self.moving.clear();
         let (mut all_beyond, mut around) = (Vec::new(), Vec::new());
@@ -221,7 +166,7 @@ impl<'a> SurfaceFront<'a> {
             if seen == self.round || !self.mesh.has_vertex(v) || self.vertices[v as usize].pinned {
                 continue;
             }
-            if let Some((way, beyond)) = self.released(v, &mut around) {
+            if let Some((way, beyond)) = self.let_go(v, &mut around) {
                 let (round, slot) = (self.round, self.moving.len() as u32);
                 let vertex = &mut self.vertices[v as usize];
                 (vertex.moving, vertex.slot, vertex.way) = (round, slot, Some(way));
@@ -255,8 +200,18 @@ impl<'a> SurfaceFront<'a> {
     /// Marks the faces at `v` as changed.
     pub(super) fn change_faces(&mut self, v: u32) {
         self.touched.resize(self.mesh.face_count(), true);
-        for f in self.mesh.faces_at(v) {
-            self.touched[f as usize] = true;
+        let faces: Vec<u32> = self.mesh.faces_at(v).collect();
+        for f in faces {
+            self.change_face(f);
+        }
+    }
+
+    /// Marks a face as changed.
+    pub(super) fn change_face(&mut self, f: u32) {
+        self.touched[f as usize] = true;
+        if self.is_guarded {
+            self.crowd.file(f, self.mesh.triangle(f));
+        } else {
             self.contacts.note(f);
         }
     }
@@ -313,7 +268,8 @@ impl Front<3> for SurfaceFront<'_> {
     }
 
     fn beyond(&self, displacements: &[[f64; 3]]) -> Vec<f64> {
-        if self.obstacle == Obstacle::NONE {
+        // Without a bound nothing passes it, and contact is where the others land.
+        if self.obstacle == Obstacle::NONE || self.is_guided() {
             return vec![0.0; self.moving.len()];
         }
         let place = |v: u32| match self.row(v) {
@@ -336,7 +292,17 @@ impl Front<3> for SurfaceFront<'_> {
             Displaced { moving: self.moving.len(), shortest_edge: f64::INFINITY, ..Displaced::default() };
         for (k, &d) in displacements.iter().enumerate() {
             let v = self.moving[k];
-            let d = self.allowed(v, d.into());
+            let landing = match self.vertices[v as usize].approach {
+                Approach::Near(landing) => Some(landing),
+                _ => None,
+            };
+            let d = match landing {
+                Some(landing) => self.followed(v, landing.point - self.point(v)),
+                None => self.allowed(v, d.into()),
+            };
+            let d = self.free(v, d);
+            let missed = &mut self.vertices[v as usize].missed;
+            *missed = missed.saturating_add(if landing.is_some() { LANDING_COST } else { 1 });
             let distance = d.norm() / self.h;
             if distance == 0.0 || !distance.is_finite() {
                 continue;
@@ -347,7 +313,16 @@ impl Front<3> for SurfaceFront<'_> {
             }
             let swept: Vector = self.mesh.faces_at(v).map(|f| self.mesh.area_vector(f) / 6.0).sum();
             displaced.swept += swept.dot(&d).abs();
-            self.place(v, self.point(v) + d);
+            match landing.filter(|l| l.point - self.point(v) == d) {
+                Some(landing) => {
+                    self.place(v, landing.point);
+                    self.vertices[v as usize].approach = Approach::Landed(landing.normal);
+                }
+                None => {
+                    self.place(v, self.point(v) + d);
+                    self.come_nearer(v, d.norm());
+                }
+            }
         }
         displaced.shrunk = area - self.area(&faces);
         for k in 0..self.moving.len() {
@@ -355,11 +330,15 @@ impl Front<3> for SurfaceFront<'_> {
             self.touch(self.moving[k]);
         }
         self.mend();
+        if self.reach_farther(displaced.largest) {
+            displaced.largest = displaced.largest.max(1.0);
+        }
         displaced
     }
 
     fn contacts(&mut self) -> Vec<[f64; 3]> {
-        self.find_contacts().into_iter().map(Into::into).collect()
+        // Where nothing crosses, what was blocked is told in the end.
+        if self.is_guarded { Vec::new() } else { self.find_contacts().into_iter().map(Into::into).collect() }
     }
 
     fn edge_length(&self) -> f64 {

@@ -4,18 +4,23 @@
 //! boundary stay.
 
 mod contact;
+mod crowd;
 mod curvature;
 mod direction;
 mod front;
+mod landing;
 mod motion;
 mod operators;
 mod refine;
+mod release;
 mod remesh;
 mod result;
+mod spikes;
 #[cfg(test)]
 mod tests;
 
 pub use front::SurfaceFront;
+pub use landing::{Contact, Landing};
 pub use result::FlownSurface;
 
 use super::advance::{Advance, End, OnContact, Status};
@@ -36,12 +41,15 @@ pub struct SurfaceField<'a> {
     ///
     /// Near a pin, seven tenths of this distance are the radius: a surface meets what is pinned smoothly.
     pub pin_distance: Box<dyn Fn(Point) -> f64 + 'a>,
+    /// Where the ball touches, for a flow that is to land there; `None` for one that ends at the bound on curvature. Only closing
+    /// asks for it, and opening, which closes what is empty: there it is the ball that rolls inside.
+    pub contact: Option<Contact<'a>>,
 }
 
 impl SurfaceField<'_> {
     /// The same radius everywhere, and no pins.
     pub fn constant(radius: f64) -> SurfaceField<'static> {
-        SurfaceField { radius: Box::new(move |_| radius), pin_distance: Box::new(|_| f64::INFINITY) }
+        SurfaceField { radius: Box::new(move |_| radius), pin_distance: Box::new(|_| f64::INFINITY), contact: None }
     }
 }
 
@@ -177,6 +185,11 @@ impl<'a> SurfaceFlow<'a> {
         let (input, obstacle) =
             if mirrored { (surface.reversed(), Obstacle::CLOSING) } else { (surface.clone(), obstacle) };
         let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
+        let field = if obstacle == Obstacle::CLOSING && kind == Kind::Minimum {
+            field
+        } else {
+            SurfaceField { contact: None, ..field }
+        };
         let freeze = on_contact == OnContact::Freeze;
         let front = SurfaceFront::new(input, mesh, field, obstacle, kind, edge, freeze);
         Ok(SurfaceFlow { advance: Advance::new(front, time_step, tolerance, on_contact), mirrored })
@@ -220,16 +233,13 @@ impl<'a> SurfaceFlow<'a> {
         SurfaceReport {
             steps: self.advance.steps,
             time: self.advance.time,
-            end: match self.status() {
-                Status::Going => None,
-                Status::Ended(end) => Some(end),
-            },
+            end: self.status().end(),
             moving: self.advance.last.moving,
             largest: self.advance.last.largest,
             swept: self.advance.swept,
             kept: (0..vertices as u32).filter(|&v| front.is_kept(v)).count(),
             vertices,
-            contacts: self.advance.contacts.iter().map(|&c| c.into()).collect(),
+            contacts: self.advance.contacts.iter().map(|&c| c.into()).chain(front.blocked()).collect(),
         }
     }
 }

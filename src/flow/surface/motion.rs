@@ -4,14 +4,18 @@ use super::SurfaceFront;
 use crate::flow::obstacle::{Obstacle, Way};
 use crate::mesh::Vector;
 
-/// A vertex goes no farther in a step than so many edge lengths.
+/// A vertex goes no farther in a step than so many edge lengths; farther where contact tells where to stop.
 const STRIDE: f64 = 0.25;
+const GUIDED_STRIDE: f64 = 0.5;
 
 /// A face may become no smaller in a step, seen along its old normal, than this part of it.
 const LEAST_LEFT: f64 = 0.2;
 
 /// A step is tried at most at so many halves of its length.
 const HALVINGS: usize = 4;
+
+/// What would cross is tried at so many halves.
+const FREEINGS: usize = 2;
 
 impl SurfaceFront<'_> {
     /// The direction in which vertex `v` moves: of unit length, outward of all its faces if there is such a one.
@@ -41,7 +45,7 @@ impl SurfaceFront<'_> {
     ///
     /// So the volume between the old and the new faces at it is empty before and solid after, or the other way round.
     pub(super) fn allowed(&self, v: u32, d: Vector) -> Vector {
-        let mut d = if self.obstacle == Obstacle::NONE {
+        let d = if self.obstacle == Obstacle::NONE {
             d
         } else {
             let normal = self.normal(v);
@@ -53,9 +57,15 @@ impl SurfaceFront<'_> {
             let leads_back = self.mesh.faces_at(v).any(|f| self.mesh.area_vector(f).dot(&normal) < 0.0);
             if leads_back { Vector::zeros() } else { normal * along }
         };
+        self.followed(v, d)
+    }
+
+    /// What of the displacement `d` the faces at vertex `v` can follow.
+    pub(super) fn followed(&self, v: u32, mut d: Vector) -> Vector {
         let length = d.norm();
-        if length > STRIDE * self.h {
-            d *= STRIDE * self.h / length;
+        let stride = if self.is_guided() { GUIDED_STRIDE } else { STRIDE } * self.h;
+        if length > stride {
+            d *= stride / length;
         }
         for _ in 0..HALVINGS {
             let place = self.point(v) + d;
@@ -69,6 +79,22 @@ impl SurfaceFront<'_> {
             }
             d *= 0.5;
         }
-        if self.obstacle == Obstacle::NONE { Vector::zeros() } else { d }
+        if self.obstacle == Obstacle::NONE || self.is_guarded { Vector::zeros() } else { d }
+    }
+
+    /// What of the displacement `d` vertex `v` takes without the surface passing through itself.
+    pub(super) fn free(&mut self, v: u32, mut d: Vector) -> Vector {
+        if !self.is_guarded || d == Vector::zeros() {
+            return d;
+        }
+        for _ in 0..=FREEINGS {
+            if !self.would_cross_at(v, self.point(v) + d) {
+                self.vertices[v as usize].blocked = false;
+                return d;
+            }
+            d *= 0.5;
+        }
+        self.vertices[v as usize].blocked = true;
+        Vector::zeros()
     }
 }

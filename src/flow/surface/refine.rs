@@ -93,8 +93,9 @@ impl SurfaceFront<'_> {
     pub(super) fn split(&mut self, h: u32, p: Point) -> u32 {
         // Where the field says nothing, what holds at the ends.
         let radius = self.vertices[self.mesh.origin(h) as usize].radius;
+        let missed = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.vertices[v as usize].missed);
         let v = self.mesh.split(h, p);
-        self.vertices.push(Vertex::new(radius));
+        self.vertices.push(Vertex::new(radius, missed[0].max(missed[1])));
         self.bind(v);
         self.change_faces(v);
         v

@@ -5,6 +5,7 @@
 //! nothing of the input is met.
 
 use super::SurfaceFront;
+use super::landing::{Approach, CAPTURE, Landing};
 use crate::flow::obstacle::{Obstacle, Way};
 use crate::mesh::{Hierarchy, Point, Vector};
 
@@ -38,6 +39,9 @@ impl SurfaceFront<'_> {
         let mut moving = std::mem::take(&mut self.moving);
         for &v in &moving {
             self.merge_at(v);
+        }
+        for &v in &moving {
+            self.cut_off_at(v);
         }
         for &v in &moving {
             self.split_stretched(v);
@@ -84,7 +88,7 @@ impl SurfaceFront<'_> {
     }
 
     /// Whether the vertex at the origin of `h` may be merged into its target.
-    fn may_merge(&self, h: u32) -> bool {
+    fn may_merge(&mut self, h: u32) -> bool {
         let (gone, stays) = (self.mesh.origin(h), self.mesh.target(h));
         if self.is_kept(gone) || self.is_pinned(gone) || !self.mesh.can_collapse(h) {
             return false;
@@ -110,7 +114,14 @@ impl SurfaceFront<'_> {
                 && new.dot(&old) > SAME_WAY * new.norm() * old.norm()
                 && new.norm() > 0.1 * longest * longest
         });
-        is_good && side * volume >= -NO_VOLUME * self.h.powi(3)
+        if !is_good || side * volume < -NO_VOLUME * self.h.powi(3) {
+            return false;
+        }
+        let faces: Vec<u32> = self.mesh.faces_at(gone).collect();
+        let left = faces.iter().map(|&f| self.mesh.face(f)).filter(|corners| !corners.contains(&stays));
+        let at = |w: u32| if w == gone { to } else { self.point(w) };
+        let triangles: Vec<[Point; 3]> = left.map(|corners| corners.map(at)).collect();
+        !self.would_cross(&triangles, &faces)
     }
 
     /// Splits the edges at `v` that have been stretched.
@@ -138,7 +149,11 @@ impl SurfaceFront<'_> {
                 // The surface bulges from the chord by an eighth of its length for every radian that it turns.
                 let turn = (n - m).dot(&(q - p)) / length;
                 let normal = (m + n).try_normalize(0.0).unwrap_or_default();
-                self.slide(new, normal * (turn.clamp(-0.5, 0.5) * length / 8.0));
+                let both = self.has_landed(v) && self.has_landed(w);
+                match if both { self.landing(middle, normal, self.vertices[new as usize].radius) } else { None } {
+                    Some(landing) => self.land(new, landing),
+                    None => _ = self.slide(new, normal * (turn.clamp(-0.5, 0.5) * length / 8.0)),
+                }
             }
             self.touch(new);
         }
@@ -174,8 +189,7 @@ impl SurfaceFront<'_> {
                 ends.into_iter().for_each(|v| self.touch(v));
                 let faces = [Some(h), self.mesh.twin(h)].map(|h| h.map(|h| self.mesh.face_of(h)));
                 for f in faces.into_iter().flatten() {
-                    self.touched[f as usize] = true;
-                    self.contacts.note(f);
+                    self.change_face(f);
                 }
             }
         }
@@ -201,11 +215,13 @@ impl SurfaceFront<'_> {
         }
         // Volume between the two pairs of faces, positive where the new ones are farther out.
         let gain = old[0].dot(&(d - a)) * ends.first().map_or(1.0, |&v| self.side(v));
-        if gain >= -NO_VOLUME * self.h.powi(3) {
-            return true;
-        }
+        let loses = gain < -NO_VOLUME * self.h.powi(3);
         let all_moved = ends.iter().chain(&far).all(|&v| self.has_moved(v));
-        all_moved && !self.ground().is_crossed(c, d)
+        if loses && (!all_moved || self.ground().is_crossed(c, d)) {
+            return false;
+        }
+        let faces = [h, t].map(|h| self.mesh.face_of(h));
+        !self.would_cross(&[[d, c, a], [c, d, b]], &faces)
     }
 
     /// Moves a vertex among others that moved towards their middle, along the surface, where its faces are thin.
@@ -239,14 +255,34 @@ impl SurfaceFront<'_> {
         }
         let lift = if under > 0.0 { length2 * over / under } else { 0.0 };
         let d = along + normal * lift;
-        if self.smallest_angle(v, p + d) > self.smallest_angle(v, p) {
-            self.slide(v, d);
+        let landing = if self.has_landed(v) {
+            match self.landing(p + d, normal, self.vertices[v as usize].radius) {
+                Some(landing) => Some(landing),
+                None => return,
+            }
+        } else {
+            None
+        };
+        let q = landing.map_or(p + d, |l| l.point);
+        if self.smallest_angle(v, q) > self.smallest_angle(v, p) {
+            match landing {
+                Some(landing) => self.land(v, landing),
+                None => _ = self.slide(v, d),
+            }
             self.touch(v);
         }
     }
 
+    /// Moves a vertex that has no place of its own to where the ball touches.
+    fn land(&mut self, v: u32, landing: Landing) {
+        if landing.gap.abs() < CAPTURE * self.h && self.slide(v, landing.point - self.point(v)) {
+            self.mesh.points[v as usize] = landing.point;
+            self.vertices[v as usize].approach = Approach::Landed(landing.normal);
+        }
+    }
+
     /// Moves a vertex that has no place of its own, where no face turns over and nothing of the input is met.
-    fn slide(&mut self, v: u32, d: Vector) {
+    fn slide(&mut self, v: u32, d: Vector) -> bool {
         let p = self.point(v);
         let q = p + d;
         let spokes: Vec<[Point; 2]> =
@@ -257,13 +293,16 @@ impl SurfaceFront<'_> {
             new.dot(&old) > 0.8 * new.norm() * old.norm()
         };
         if !spokes.iter().all(is_same) {
-            return;
+            return false;
         }
         let ground: &Hierarchy = self.ground();
-        if ground.is_crossed(p, q) || spokes.iter().any(|[a, _]| ground.is_crossed(q, *a)) {
-            return;
+        if ground.is_crossed(p, q) || spokes.iter().any(|[a, _]| ground.is_crossed(q, *a)) || self.would_cross_at(v, q)
+        {
+            return false;
         }
         self.place(v, q);
         self.bind(v);
+        self.come_nearer(v, d.norm());
+        true
     }
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::*;
 use crate::mesh::{NONE, PolygonMesh, TriangleMesh, self_intersections};
+use crate::rolling::Roller;
 
 const R: f64 = 0.4;
 
@@ -15,6 +16,23 @@ fn closed(mesh: &TriangleMesh, h: f64) -> FlownSurface {
     let mut flow = flow(mesh, Obstacle::CLOSING, h);
     assert!(flow.run(f64::INFINITY) != Status::Going);
     assert!(flow.report().end.unwrap().is_limit(), "{:?}", flow.report());
+    flow.result()
+}
+
+/// A field that knows where the ball touches `mesh`.
+fn landing_field(mesh: &TriangleMesh) -> SurfaceField<'static> {
+    let roller = Roller::new(mesh).unwrap();
+    let contact = move |p, n, r| {
+        roller.touch(p, n, r).map(|touch| Landing { point: touch.point, normal: touch.normal, gap: touch.gap })
+    };
+    SurfaceField { contact: Some(Box::new(contact)), ..SurfaceField::constant(R) }
+}
+
+fn landed(mesh: &TriangleMesh, h: f64) -> FlownSurface {
+    let settings = SurfaceSettings { on_contact: OnContact::Freeze, ..SurfaceSettings::new(h) };
+    let mut flow = SurfaceFlow::new(mesh, Obstacle::CLOSING, landing_field(mesh), &settings).unwrap();
+    flow.run(f64::INFINITY);
+    assert!(flow.report().end.unwrap().is_limit() && flow.report().contacts.is_empty(), "{:?}", flow.report());
     flow.result()
 }
 
@@ -163,6 +181,33 @@ fn two_spheres_get_the_neck_of_a_torus() {
 }
 
 #[test]
+fn what_lands_on_the_ball_is_on_it_to_the_last_digits() {
+    for h in [0.1, 0.05] {
+        let result = landed(&angle_piece(), h);
+        let (mean, max) = summary(&fillet_errors(&result, h));
+        assert!(mean < 1e-6 && max < 1e-4, "{mean} {max}");
+        let mesh = turned(&profile(0.7, h), (TAU / h).round() as usize);
+        let result = landed(&mesh, h);
+        let rho = ((1.0 + R) * (1.0 + R) - 0.49f64).sqrt();
+        let moved = result.points.iter().zip(&result.origins).filter(|(_, o)| **o == NONE);
+        let errors: Vec<f64> = moved.map(|(p, _)| (R - (p.y.hypot(p.z) - rho).hypot(p.x)) / h).collect();
+        let (mean, max) = summary(&errors);
+        // The spheres are faceted, so the ball sinks in by up to their sagitta, an eighth of h².
+        assert!(errors.len() > 100 && mean < 0.3 * h && max < 0.5 * h, "{mean} {max}");
+        assert!(self_intersections(&TriangleMesh::new(result.points, result.faces)).is_empty());
+    }
+}
+
+#[test]
+fn what_the_ball_fits_rests_though_it_could_land() {
+    for mesh in [turned(&profile(0.0, 0.1), 60), trough(1.005 * R, 0.05)] {
+        let result = landed(&mesh, 0.05);
+        assert!(result.points == mesh.points && result.faces == mesh.faces);
+    }
+    assert!(landed(&trough(0.9 * R, 0.05), 0.05).origins.contains(&NONE));
+}
+
+#[test]
 fn opening_is_the_closing_of_the_complement_bit_for_bit() {
     let mesh = angle_piece().reversed();
     let mut opening = flow(&mesh, Obstacle::OPENING, 0.1);
@@ -202,6 +247,7 @@ fn pins_and_boundaries_stay() {
     let field = SurfaceField {
         radius: Box::new(|_| R),
         pin_distance: Box::new(|p: Point| (p - Point::new(1.0, 1.0, 1.0)).norm() - 0.1),
+        contact: None,
     };
     let mut flow = SurfaceFlow::new(&angle_piece(), Obstacle::CLOSING, field, &SurfaceSettings::new(0.1)).unwrap();
     flow.run(f64::INFINITY);
