@@ -126,8 +126,11 @@ pub(super) fn run(
         },
         ..SurfaceSettings::new(edge)
     };
-    let space =
-        SurfaceField { radius: Box::new(|p| (field.radius)(p)), pin_distance: Box::new(|p| (field.pin_distance)(p)) };
+    let space = SurfaceField {
+        radius: Box::new(|p| (field.radius)(p)),
+        pin_distance: Box::new(|p| (field.pin_distance)(p)),
+        facing: field.facing.as_ref().map(|facing| Box::new(|n| facing(n)) as Box<_>),
+    };
     let mut flowing = SurfaceFlow::new(&input.triangles, obstacle, space, &settings).context("--method flow")?;
     let unit = radius * radius;
     let stops: Vec<f64> = match (flow.time, flow.frames) {

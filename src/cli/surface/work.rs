@@ -133,6 +133,11 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
             bail!("--stretch: only --method direct rolls an ellipsoid");
         }
     }
+    if field.facing.is_some() && args.method != MethodArg::Flow {
+        bail!(
+            "--radius-facing: a ball has no direction, only the flow can tell where the surface faces: add --method flow"
+        );
+    }
     for r in [field.smallest, field.largest] {
         if !(RADII[0] * diagonal..=RADII[1] * diagonal).contains(&r) {
             bail!(

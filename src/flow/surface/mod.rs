@@ -20,7 +20,7 @@ pub use result::FlownSurface;
 
 use super::advance::{Advance, End, OnContact, Status};
 use super::obstacle::Obstacle;
-use crate::mesh::{HalfEdgeMesh, NotManifold, Point, TriangleMesh};
+use crate::mesh::{HalfEdgeMesh, NotManifold, Point, TriangleMesh, Vector};
 
 /// The time step tau in units of h².
 pub const DEFAULT_SURFACE_TIME_STEP: f64 = 2.0;
@@ -36,12 +36,15 @@ pub struct SurfaceField<'a> {
     ///
     /// Near a pin, seven tenths of this distance are the radius: a surface meets what is pinned smoothly.
     pub pin_distance: Box<dyn Fn(Point) -> f64 + 'a>,
+    /// What the radius is multiplied by where the outward unit normal is this one; nothing: it is the same whichever way the
+    /// surface faces. The normal is the one that the surface has at the time.
+    pub facing: Option<Box<dyn Fn(Vector) -> f64 + 'a>>,
 }
 
 impl SurfaceField<'_> {
     /// The same radius everywhere, and no pins.
     pub fn constant(radius: f64) -> SurfaceField<'static> {
-        SurfaceField { radius: Box::new(move |_| radius), pin_distance: Box::new(|_| f64::INFINITY) }
+        SurfaceField { radius: Box::new(move |_| radius), pin_distance: Box::new(|_| f64::INFINITY), facing: None }
     }
 }
 
@@ -151,7 +154,7 @@ impl<'a> SurfaceFlow<'a> {
     pub fn new(
         surface: &TriangleMesh,
         obstacle: Obstacle,
-        field: SurfaceField<'a>,
+        mut field: SurfaceField<'a>,
         settings: &SurfaceSettings,
     ) -> Result<SurfaceFlow<'a>, SurfaceFlowError> {
         let SurfaceSettings { edge, time_step, tolerance, on_contact, kind } = *settings;
@@ -177,6 +180,9 @@ impl<'a> SurfaceFlow<'a> {
         let (input, obstacle) =
             if mirrored { (surface.reversed(), Obstacle::CLOSING) } else { (surface.clone(), obstacle) };
         let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
+        if mirrored {
+            field.facing = field.facing.map(|facing| Box::new(move |n: Vector| facing(-n)) as Box<_>);
+        }
         let freeze = on_contact == OnContact::Freeze;
         let front = SurfaceFront::new(input, mesh, field, obstacle, kind, edge, freeze);
         Ok(SurfaceFlow { advance: Advance::new(front, time_step, tolerance, on_contact), mirrored })
