@@ -129,7 +129,7 @@ pub(super) fn run(
     let space = SurfaceField {
         radius: Box::new(|p| (field.radius)(p)),
         pin_distance: Box::new(|p| (field.pin_distance)(p)),
-        facing: field.facing.as_ref().map(|facing| Box::new(|n| facing(n)) as Box<_>),
+        facing: field.facing.as_ref().map(|facing| Box::new(facing) as Box<_>),
     };
     let mut flowing = SurfaceFlow::new(&input.triangles, obstacle, space, &settings).context("--method flow")?;
     let unit = radius * radius;

@@ -186,7 +186,7 @@ fn typed(numbers: &[f64]) -> String {
 }
 
 /// So many finite numbers with commas between them.
-fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+pub(super) fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let parse = |t: &str| t.trim().parse::<f64>().ok().filter(|x| x.is_finite());
     let found: Option<Vec<f64>> = text.split(',').map(parse).collect();
     found?.try_into().ok()
