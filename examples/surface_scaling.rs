@@ -18,16 +18,17 @@ mod solids;
 
 const SIZES: [u32; 3] = [10_000, 100_000, 1_000_000];
 
-/// The bracket, and a ball far from it with so many vertices that both have `count`.
+/// The bracket, and a ball far from it with so many vertices that both have about `count`.
 fn bracket_and_ball(count: u32) -> PolygonMesh {
     let bracket = solids::bracket();
     let rest = f64::from(count) - bracket.points.len() as f64;
-    let along = (rest / 2.0).sqrt().round().max(4.0) as u32;
-    let profile: Vec<[f64; 2]> = (0..=along)
-        .map(|k| std::f64::consts::PI * f64::from(k) / f64::from(along))
-        .map(|t| [5.0 - t.cos(), t.sin()])
-        .collect();
-    let ball = solids::revolved(&profile, 2 * along);
+    // A cube blown up, so that its quads are alike everywhere.
+    let n = (rest / 6.0).sqrt().round().max(2.0);
+    let mut ball = solids::blocks([n as i32; 3], 1.0, |_| true);
+    for p in &mut ball.points {
+        let cube = p.coords.map(|x| ((2.0 * x / n - 1.0) * std::f64::consts::FRAC_PI_4).tan());
+        *p = clopen::mesh::Point::new(5.0, 0.0, 0.0) + cube.normalize();
+    }
     let from = bracket.points.len() as u32;
     let mut both = PolygonMesh::new([bracket.points.as_slice(), &ball.points].concat());
     bracket.polygons().for_each(|p| both.push(p));

@@ -5,11 +5,13 @@
 
 mod clean;
 mod cut;
+mod disk;
 mod fans;
 mod half_edge;
 mod hierarchy;
 mod intersect;
 mod offset;
+mod parallel;
 mod polygon_mesh;
 mod problem;
 mod repair;
