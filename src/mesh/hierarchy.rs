@@ -44,8 +44,8 @@ fn boxes_meet([low, high]: [&Point; 2], [l, h]: [&Point; 2]) -> bool {
     (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k])
 }
 
-/// Nodes of so many triangles or fewer have a disk: larger ones are seldom flat.
-const DISK: usize = 32;
+/// Nodes of so many triangles or fewer have a disk: larger ones are seldom flat, and few.
+const DISK: usize = 1024;
 
 /// The nearest point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
