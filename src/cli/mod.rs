@@ -75,7 +75,9 @@ impl From<ExitStatus> for ExitCode {
 
 /// Runs the command that was typed.
 pub fn main() -> ExitCode {
-    let result = match Cli::parse().command {
+    let command = Cli::parse().command;
+    output::tidy_when_broken_off();
+    let result = match command {
         Command::Mill(args) => mill::run(&args),
         Command::Close(args) => close::run(&args, close::Operation::Close),
         Command::Open(args) => close::run(&args, close::Operation::Open),

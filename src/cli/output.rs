@@ -2,11 +2,34 @@
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::{Context as _, Result, bail};
 
 /// A file to be written and what it will hold.
 pub(super) type Content<'a> = (&'a Path, &'a [u8]);
+
+/// The temporary files that there are now. A user who breaks off finds none of them, so the one who removes them must know.
+static STAGED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// The exit status of a command that was broken off, as shells have it.
+const BROKEN_OFF: i32 = 130;
+
+fn staged() -> MutexGuard<'static, Vec<PathBuf>> {
+    STAGED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Has temporary files removed where the user breaks off (Ctrl-C) or the system does. Results that are just taking their places
+/// take them first, all of them.
+pub(super) fn tidy_when_broken_off() {
+    // Where no handler can be had, a temporary file may be left behind: no reason not to work.
+    let _ = ctrlc::set_handler(|| {
+        for path in staged().drain(..) {
+            let _ = std::fs::remove_file(path);
+        }
+        std::process::exit(BROKEN_OFF);
+    });
+}
 
 /// Writes `bytes` to a file, or to standard output where the name is `-`.
 ///
@@ -25,9 +48,15 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 /// # Errors
 /// Names the file.
 pub(super) fn write_together(contents: &[Content]) -> Result<()> {
+    let written = write_all(contents);
+    staged().clear();
+    written
+}
+
+fn write_all(contents: &[Content]) -> Result<()> {
     let cannot =
         |path: &Path| format!("{}: cannot be written; is the folder there, and may you write to it?", path.display());
-    let mut staged = Vec::new();
+    let mut files = Vec::new();
     let mut streams = Vec::new();
     for &(path, bytes) in contents {
         // A temporary file that cannot be made is named in the error, and is nothing to anyone.
@@ -38,11 +67,14 @@ pub(super) fn write_together(contents: &[Content]) -> Result<()> {
         };
         match stage(path, bytes).map_err(plain).with_context(|| cannot(path))? {
             Staged::Stream => streams.push((path, bytes)),
-            Staged::File { file, target } => staged.push((path, file, target)),
+            Staged::File { file, target } => files.push((path, file, target)),
         }
     }
-    for (path, file, target) in staged {
-        file.persist(target).map_err(|e| e.error).with_context(|| cannot(path))?;
+    {
+        let _no_breaking_off = staged();
+        for (path, file, target) in files {
+            file.persist(target).map_err(|e| e.error).with_context(|| cannot(path))?;
+        }
     }
     for (path, bytes) in streams {
         if path == Path::new("-") {
@@ -93,7 +125,13 @@ fn stage(path: &Path, bytes: &[u8]) -> std::io::Result<Staged> {
     // Temporary files are private; a result is what the user's mask makes of any new file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
+    let mut file = {
+        // Not to be broken off between making it and noting it.
+        let mut staged = staged();
+        let file = builder.tempfile_in(folder)?;
+        staged.push(file.path().to_owned());
+        file
+    };
     file.write_all(bytes)?;
     if let Some(found) = replaced {
         if found.permissions().readonly() {

@@ -2,7 +2,9 @@
 
 mod check;
 mod choose;
+mod cut;
 mod flow;
+mod offset;
 mod pins;
 mod report;
 mod work;
@@ -32,6 +34,10 @@ enum SurfaceCommand {
     Open(WorkArgs),
     /// Close and open, one after the other
     Clopen(ClopenArgs),
+    /// Cut off what lies in front of a plane, with a cap
+    Cut(cut::CutArgs),
+    /// Move a mesh along its normals, or make a shell of it
+    Offset(offset::OffsetArgs),
     /// Measure a closed or opened mesh against the definition: contact error, containment, kept vertices, triangles
     Check(check::SurfaceCheckArgs),
 }
@@ -160,6 +166,8 @@ pub(super) fn run(args: &SurfaceArgs) -> Result<ExitStatus> {
             OrderArg::CloseOpen => &[Step::Close, Step::Open],
             OrderArg::OpenClose => &[Step::Open, Step::Close],
         }),
+        SurfaceCommand::Cut(args) => cut::run(args),
+        SurfaceCommand::Offset(args) => offset::run(args),
         SurfaceCommand::Check(args) => check::run(args),
     }
 }

@@ -1,5 +1,6 @@
 //! Bounding boxes around bounding boxes around triangles: nearest points, and what a segment meets.
 
+use super::disk::Disk;
 use super::{Feature, Point, Vector, nearest_on_triangle};
 
 /// So many triangles are looked at one by one.
@@ -7,6 +8,9 @@ const LEAF: usize = 4;
 
 /// Deeper than any hierarchy of u32 triangles that is halved at every node.
 const DEPTH: usize = 64;
+
+/// Work on pairs of triangles is divided so often: some hundred pieces.
+const DIVISIONS: usize = 6;
 
 /// A box of the hierarchy.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +32,20 @@ impl Node {
         let z = (self.low.z - p.z).max(p.z - self.high.z).max(0.0);
         x * x + y * y + z * z
     }
+
+    fn meets(&self, other: &Node) -> bool {
+        boxes_meet([&self.low, &self.high], [&other.low, &other.high])
+    }
 }
+
+/// Whether two boxes have a point in common.
+#[inline]
+fn boxes_meet([low, high]: [&Point; 2], [l, h]: [&Point; 2]) -> bool {
+    (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k])
+}
+
+/// Nodes of so many triangles or fewer have a disk: larger ones are seldom flat, and few.
+const DISK: usize = 1024;
 
 /// The nearest point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +64,8 @@ pub struct Nearest {
 #[derive(Clone, Debug, Default)]
 pub struct Hierarchy {
     nodes: Vec<Node>,
+    /// The disk of each node.
+    disks: Vec<Disk>,
     /// The corners of the triangles, in the order of the leaves.
     triangles: Vec<[Point; 3]>,
     /// The number of the face that each of them is.
@@ -68,6 +87,8 @@ impl Hierarchy {
         }
         let empty = Node { low: Point::origin(), high: Point::origin(), first: 0, count: 0 };
         nodes.push(empty);
+        // The triangles of each node that is to have a disk; none of the others.
+        let mut flat = vec![(0u32, 0u32)];
         let mut open = vec![(0usize, 0usize, faces.len())];
         while let Some((node, start, end)) = open.pop() {
             let far = f64::INFINITY;
@@ -78,6 +99,9 @@ impl Hierarchy {
                 for p in &corners[*k as usize] {
                     (low, high) = (low.inf(p), high.sup(p));
                 }
+            }
+            if end - start <= DISK {
+                flat[node] = (start as u32, end as u32);
             }
             if end - start <= LEAF {
                 nodes[node] = Node { low, high, first: start as u32, count: (end - start) as u32 };
@@ -90,13 +114,18 @@ impl Hierarchy {
                 .select_nth_unstable_by(middle - start, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
             let first = nodes.len() as u32;
             nodes.extend([empty, empty]);
+            flat.extend([(0, 0); 2]);
             nodes[node] = Node { low, high, first, count: 0 };
             open.push((first as usize, start, middle));
             open.push((first as usize + 1, middle, end));
         }
         let faces: Vec<u32> = order.iter().map(|(_, k)| *k).collect();
-        let triangles = faces.iter().map(|&k| corners[k as usize]).collect();
-        Hierarchy { nodes, triangles, faces }
+        let triangles: Vec<[Point; 3]> = faces.iter().map(|&k| corners[k as usize]).collect();
+        let disk = |(node, &(start, end)): (&Node, &(u32, u32))| {
+            Disk::around(&triangles[start as usize..end as usize], nalgebra::center(&node.low, &node.high))
+        };
+        let disks = nodes.iter().zip(&flat).map(disk).collect();
+        Hierarchy { nodes, disks, triangles, faces }
     }
 
     /// The nearest point of the surface to `p`, if it is nearer than `within`.
@@ -112,7 +141,7 @@ impl Hierarchy {
         while top > 0 {
             top -= 1;
             let (node, distance2) = stack[top];
-            if distance2 >= best2 {
+            if distance2 >= best2 || self.disks[node as usize].distance2(&p) >= best2 {
                 continue;
             }
             let node = &self.nodes[node as usize];
@@ -146,7 +175,7 @@ impl Hierarchy {
     pub fn is_nearer(&self, p: Point, distance: f64) -> bool {
         let limit = distance * distance;
         self.any(
-            |node| node.distance2(&p) < limit,
+            |node, disk| node.distance2(&p) < limit && disk.distance2(&p) < limit,
             |triangle, _| (p - nearest_on_triangle(p, *triangle).0).norm_squared() < limit,
         )
     }
@@ -155,7 +184,7 @@ impl Hierarchy {
     pub fn is_crossed(&self, a: Point, b: Point) -> bool {
         let along = b - a;
         let inverse = along.map(|x| 1.0 / x);
-        let meets_box = |node: &Node| {
+        let meets_box = |node: &Node, _: &Disk| {
             let (mut from, mut to) = (0.0f64, 1.0f64);
             for k in 0..3 {
                 // A segment in the plane of a side gives no number, and the box is looked into.
@@ -173,19 +202,81 @@ impl Hierarchy {
     pub fn any_in_box(&self, low: Point, high: Point, mut visit: impl FnMut(u32) -> bool) -> bool {
         let meets = |l: &Point, h: &Point| (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k]);
         self.any(
-            |node| meets(&node.low, &node.high),
+            |node, _| meets(&node.low, &node.high),
             |[a, b, c], face| meets(&a.inf(b).inf(c), &a.sup(b).sup(c)) && visit(face),
         )
     }
 
+    /// Pairs of nodes, also of a node with itself, that have between them every pair of faces whose boxes meet, each once: pieces
+    /// of work for [`Hierarchy::any_pair`], always the same.
+    pub(super) fn pieces(&self) -> Vec<[u32; 2]> {
+        let mut pieces: Vec<[u32; 2]> = if self.nodes.is_empty() { vec![] } else { vec![[0, 0]] };
+        for _ in 0..DIVISIONS {
+            let mut smaller = vec![];
+            for pair in pieces {
+                if !self.divide(pair, &mut smaller) {
+                    smaller.push(pair);
+                }
+            }
+            pieces = smaller;
+        }
+        pieces
+    }
+
+    /// Adds pairs of smaller nodes that meet, in place of this one; false where both are leaves.
+    fn divide(&self, [a, b]: [u32; 2], smaller: &mut Vec<[u32; 2]>) -> bool {
+        let meet = |a: u32, b: u32| self.nodes[a as usize].meets(&self.nodes[b as usize]);
+        let (one, other) = (&self.nodes[a as usize], &self.nodes[b as usize]);
+        let size = |node: &Node| (node.high - node.low).sum();
+        let pairs = match (one.count, other.count) {
+            (0, _) if a == b => {
+                let (l, r) = (one.first, one.first + 1);
+                smaller.extend([[l, l], [r, r]]);
+                smaller.extend(meet(l, r).then_some([l, r]));
+                return true;
+            }
+            (0, c) if c > 0 || size(one) >= size(other) => [[one.first, b], [one.first + 1, b]],
+            (_, 0) => [[a, other.first], [a, other.first + 1]],
+            _ => return false,
+        };
+        smaller.extend(pairs.into_iter().filter(|&[a, b]| meet(a, b)));
+        true
+    }
+
+    /// Calls `visit` with every pair of faces of a piece whose boxes meet, and their corners; stops where it answers true.
+    pub(super) fn any_pair(&self, piece: [u32; 2], mut visit: impl FnMut([u32; 2], [&[Point; 3]; 2]) -> bool) {
+        let leaf = |node: u32| {
+            let node = &self.nodes[node as usize];
+            node.first as usize..(node.first + node.count) as usize
+        };
+        let bounds = |[a, b, c]: &[Point; 3]| (a.inf(b).inf(c), a.sup(b).sup(c));
+        let mut open = vec![piece];
+        while let Some(pair) = open.pop() {
+            if self.divide(pair, &mut open) {
+                continue;
+            }
+            for i in leaf(pair[0]) {
+                let (low, high) = bounds(&self.triangles[i]);
+                for j in leaf(pair[1]).filter(|&j| pair[0] != pair[1] || j > i) {
+                    let (l, h) = bounds(&self.triangles[j]);
+                    if boxes_meet([&low, &high], [&l, &h])
+                        && visit([self.faces[i], self.faces[j]], [&self.triangles[i], &self.triangles[j]])
+                    {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
     /// Whether `hit` holds for a triangle in a box for which `enter` holds.
-    fn any(&self, enter: impl Fn(&Node) -> bool, mut hit: impl FnMut(&[Point; 3], u32) -> bool) -> bool {
+    fn any(&self, enter: impl Fn(&Node, &Disk) -> bool, mut hit: impl FnMut(&[Point; 3], u32) -> bool) -> bool {
         let mut stack = [0u32; DEPTH];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
             top -= 1;
-            let node = &self.nodes[stack[top] as usize];
-            if !enter(node) {
+            let (node, disk) = (&self.nodes[stack[top] as usize], &self.disks[stack[top] as usize]);
+            if !enter(node, disk) {
                 continue;
             }
             if node.count == 0 {

@@ -5,7 +5,7 @@
 //! with a corner or an edge in common, do not cross unless they do so elsewhere, or are folded onto each other. Corners at
 //! bit-identical places count as one.
 
-use super::{Hierarchy, Point, TriangleMesh, Vector};
+use super::{Hierarchy, Point, TriangleMesh, Vector, parallel};
 
 /// Nearer to a plane than this, over the longest edge of both triangles, is in the plane; a thousand times what rounding does to
 /// well shaped ones, and what makes the line common to two planes known to seven digits.
@@ -20,7 +20,7 @@ const OVERLAP: f64 = 1e-6;
 /// faces only touches. Triangles without area cross nothing.
 pub fn self_intersections(mesh: &TriangleMesh) -> Vec<(u32, u32)> {
     let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
-    all(mesh, &hierarchy, usize::MAX)
+    all(&hierarchy, usize::MAX)
 }
 
 /// The pairs of faces that pass through each other of which at least one is among `faces`; `hierarchy` is that of all faces of
@@ -30,37 +30,36 @@ pub fn self_intersections_of(
     hierarchy: &Hierarchy,
     faces: impl IntoIterator<Item = u32>,
 ) -> Vec<(u32, u32)> {
-    pairs(mesh, hierarchy, faces, usize::MAX, |f, g| f != g)
-}
-
-/// All pairs, or as many as were found first.
-pub(super) fn all(mesh: &TriangleMesh, hierarchy: &Hierarchy, most: usize) -> Vec<(u32, u32)> {
-    // Each pair from its lower face alone.
-    pairs(mesh, hierarchy, 0..mesh.faces.len() as u32, most, |f, g| f < g)
-}
-
-fn pairs(
-    mesh: &TriangleMesh,
-    hierarchy: &Hierarchy,
-    faces: impl IntoIterator<Item = u32>,
-    most: usize,
-    is_asked: impl Fn(u32, u32) -> bool,
-) -> Vec<(u32, u32)> {
     let mut pairs = vec![];
     for f in faces {
         let [a, b, c] = mesh.triangle(f as usize);
-        let is_full = hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |g| {
-            if is_asked(f, g) && cross([a, b, c], mesh.triangle(g as usize)) {
+        hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |g| {
+            if f != g && cross([a, b, c], mesh.triangle(g as usize)) {
+                pairs.push((f.min(g), f.max(g)));
+            }
+            false
+        });
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// All pairs, or as many as were found first.
+pub(super) fn all(hierarchy: &Hierarchy, most: usize) -> Vec<(u32, u32)> {
+    // Each piece finds its first ones, whatever the others do.
+    let found = parallel::map(&hierarchy.pieces(), |&piece| {
+        let mut pairs = vec![];
+        hierarchy.any_pair(piece, |[f, g], [one, other]| {
+            if pairs.len() < most && cross(*one, *other) {
                 pairs.push((f.min(g), f.max(g)));
             }
             pairs.len() >= most
         });
-        if is_full {
-            break;
-        }
-    }
+        pairs
+    });
+    let mut pairs: Vec<(u32, u32)> = found.into_iter().flatten().take(most).collect();
     pairs.sort_unstable();
-    pairs.dedup();
     pairs
 }
 
@@ -233,6 +232,6 @@ mod tests {
         let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
         assert_eq!(self_intersections_of(&mesh, &hierarchy, [3, 1]), [(0, 3)]);
         assert_eq!(self_intersections_of(&mesh, &hierarchy, [0, 2]), [(0, 2), (0, 3), (0, 4)]);
-        assert_eq!(all(&mesh, &hierarchy, 2).len(), 2);
+        assert_eq!(all(&hierarchy, 2).len(), 2);
     }
 }

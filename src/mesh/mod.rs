@@ -4,9 +4,14 @@
 //! A surface has its solid on the inside: seen from outside, the corners of a face run counterclockwise.
 
 mod clean;
+mod cut;
+mod disk;
+mod fans;
 mod half_edge;
 mod hierarchy;
 mod intersect;
+mod offset;
+mod parallel;
 mod polygon_mesh;
 mod problem;
 mod repair;
@@ -16,9 +21,11 @@ mod triangle_mesh;
 mod triangulate;
 mod validate;
 
+pub use cut::{Cap, CutError, CutPlane, CutSurface, cut};
 pub use half_edge::{HalfEdgeMesh, NONE, NotManifold};
 pub use hierarchy::{Hierarchy, Nearest};
 pub use intersect::{cross, self_intersections, self_intersections_of};
+pub use offset::{FARTHEST, OffsetError, Thickness, offset, offset_part};
 pub use polygon_mesh::PolygonMesh;
 pub use problem::{Problem, Severity};
 pub use repair::{Repair, repair};

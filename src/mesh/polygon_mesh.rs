@@ -1,6 +1,7 @@
 //! Surfaces of polygons, as files hold them.
 
-use super::Point;
+use super::fans::part_fans;
+use super::{NONE, Point};
 
 /// A surface of polygons: triangles, quads and larger faces, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,6 +41,28 @@ impl PolygonMesh {
     /// How many polygons there are.
     pub fn polygon_count(&self) -> usize {
         self.ends.len()
+    }
+
+    /// The polygons for which `is_wanted` holds, in their order, with their vertices, in theirs; where they touch in a corner only,
+    /// each part has a vertex of its own. With them the vertex of this mesh that each vertex is.
+    pub fn part(&self, is_wanted: impl Fn(&[u32]) -> bool) -> (PolygonMesh, Vec<u32>) {
+        let mut number = vec![NONE; self.points.len()];
+        let wanted: Vec<&[u32]> = self.polygons().filter(|p| is_wanted(p)).collect();
+        wanted.iter().flat_map(|p| p.iter()).for_each(|&v| number[v as usize] = 0);
+        let mut sources: Vec<u32> = vec![];
+        for (v, number) in (0u32..).zip(&mut number).filter(|(_, number)| **number == 0) {
+            *number = sources.len() as u32;
+            sources.push(v);
+        }
+        let mut corners: Vec<Vec<u32>> =
+            wanted.iter().map(|p| p.iter().map(|&v| number[v as usize]).collect()).collect();
+        let copies = part_fans(&mut corners, sources.len() as u32, |_| true);
+        let all: Vec<u32> = sources.iter().copied().chain(copies.iter().map(|&v| sources[v as usize])).collect();
+        let mut part = PolygonMesh::new(all.iter().map(|&v| self.points[v as usize]).collect());
+        part.colours = all.iter().filter_map(|&v| self.colours.get(v as usize).copied()).collect();
+        part.scalars = all.iter().filter_map(|&v| self.scalars.get(v as usize).copied()).collect();
+        corners.iter().for_each(|polygon| part.push(polygon));
+        (part, all)
     }
 
     /// The corners of polygon `k`.

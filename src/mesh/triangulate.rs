@@ -196,7 +196,8 @@ impl<'a> Clipped<'a> {
     }
 }
 
-fn cut_ears(points: &[Point], polygon: &[u32], faces: &mut Vec<[u32; 3]>) {
+/// Cuts a polygon into triangles over its own corners.
+pub(super) fn cut_ears(points: &[Point], polygon: &[u32], faces: &mut Vec<[u32; 3]>) {
     let normal = newell(points, polygon);
     let mut clipped = Clipped::new(points, polygon, normal);
     let mut left = polygon.len();

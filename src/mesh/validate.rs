@@ -144,7 +144,7 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     let zero = |polygon: u32| Problem::ZeroArea { polygon, is_alone: !has_neighbour[polygon as usize] };
     problems.extend(without_area(mesh).into_iter().map(zero));
     let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
-    let pairs = all(mesh, &hierarchy, MOST_INTERSECTIONS);
+    let pairs = all(&hierarchy, MOST_INTERSECTIONS);
     let mut pairs: Vec<[u32; 2]> = pairs
         .iter()
         .map(|&(f, g)| [mesh.parents[f as usize], mesh.parents[g as usize]])

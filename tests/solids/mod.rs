@@ -200,6 +200,29 @@ pub fn figure() -> PolygonMesh {
     subdivided(&subdivided(&blocks([8, 6, 13], 0.25, is_solid)))
 }
 
+/// A tray for ice, with walls of half a unit: in its only cavity, of 2.5 by 1.5 by 1, stands a ridge across, 0.75 wide and 0.5 high.
+/// What fills the cavity is [`ice`]; both have the cavity's quads in common.
+pub fn tray() -> PolygonMesh {
+    blocks(TRAY, 0.125, |c| !in_cavity(c))
+}
+
+/// What fills the cavity of the [`tray`], to its rim.
+pub fn ice() -> PolygonMesh {
+    blocks(TRAY, 0.125, in_cavity)
+}
+
+const TRAY: [i32; 3] = [28, 20, 12];
+
+fn in_cavity([x, y, z]: [i32; 3]) -> bool {
+    (4..24).contains(&x) && (4..16).contains(&y) && z >= if (11..17).contains(&x) { 8 } else { 4 }
+}
+
+/// Six teeth on a gum: blocks with gaps between, subdivided.
+pub fn teeth() -> PolygonMesh {
+    let is_solid = |[x, y, z]: [i32; 3]| if z < 2 { true } else { x % 3 != 2 && (1..3).contains(&y) };
+    subdivided(&subdivided(&blocks([17, 4, 5], 0.25, is_solid)))
+}
+
 /// All of them, with their names.
 pub fn all() -> Vec<(&'static str, PolygonMesh)> {
     vec![
@@ -209,5 +232,8 @@ pub fn all() -> Vec<(&'static str, PolygonMesh)> {
         ("capsule", capsule()),
         ("knot", knot()),
         ("figure", figure()),
+        ("tray", tray()),
+        ("ice", ice()),
+        ("teeth", teeth()),
     ]
 }

@@ -119,6 +119,7 @@ pub(super) fn space<'a>(field: &'a Field, roller: Option<Roller>) -> SurfaceFiel
         radius: Box::new(|p| (field.radius)(p)),
         pin_distance: Box::new(|p| (field.pin_distance)(p)),
         contact,
+        facing: field.facing.as_ref().map(|facing| Box::new(facing) as Box<_>),
     }
 }
 
@@ -162,10 +163,12 @@ pub(super) fn run(
         },
         ..SurfaceSettings::new(edge)
     };
-    let can_land = obstacle != Obstacle::CLOPENING && obstacle != Obstacle::NONE && settings.kind == Kind::Minimum;
+    // A ball has no direction.
+    let is_round = field.facing.is_none() && settings.kind == Kind::Minimum;
+    let can_land = is_round && obstacle != Obstacle::CLOPENING && obstacle != Obstacle::NONE;
     if flow.contacts == Some(ContactsArg::All) && !can_land {
         bail!(
-            "--contacts all: only closing and opening end on a ball, with --curvature minimum and a bound: try --contacts near"
+            "--contacts all: only closing and opening end on a ball, with --curvature minimum, a bound and no --radius-facing: try --contacts near"
         );
     }
     let lands = flow.contacts.map_or(can_land && flow.time.is_none(), |c| c == ContactsArg::All);

@@ -6,7 +6,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 
 use super::MeshLength;
-use crate::mesh::{Hierarchy, Point};
+use crate::mesh::{Hierarchy, Point, Vector};
 
 use super::work::{Input, scaled};
 
@@ -23,6 +23,11 @@ pub(super) struct FieldArgs {
     /// The number that a PLY has for each vertex (quality, scalar, value or radius) is the radius there, in parts of --radius
     #[arg(long, conflicts_with = "radius_from")]
     radius_by_vertex: bool,
+    /// Where the surface faces this way, the radius is multiplied by FACTOR; the less, the more it faces another way, and not
+    /// at all from a right angle on: 1 + (FACTOR - 1) cos² of the angle between. May be given more than once; needs --method
+    /// flow
+    #[arg(long, value_name = "X,Y,Z=FACTOR", allow_hyphen_values = true)]
+    radius_facing: Vec<Facing>,
     /// A box in which nothing moves: a corner and the extents; near it the surface joins it smoothly. May be given more than once
     #[arg(long, value_name = "X,Y,Z,DX,DY,DZ", allow_hyphen_values = true)]
     pin_box: Vec<PinBox>,
@@ -41,6 +46,8 @@ pub(super) struct FieldArgs {
 pub(super) struct Field<'a> {
     pub radius: Box<dyn Fn(Point) -> f64 + Sync + 'a>,
     pub pin_distance: Box<dyn Fn(Point) -> f64 + Sync + 'a>,
+    /// What the radius is multiplied by where the surface has a normal, if it hangs on that.
+    pub facing: Option<Box<dyn Fn(Vector) -> f64 + Sync + 'a>>,
     pub smallest: f64,
     pub largest: f64,
 }
@@ -49,11 +56,12 @@ impl<'a> Field<'a> {
     /// The field on a mesh that is squeezed by these numbers, so that the ellipsoid with such half axes is a ball.
     pub fn stretched(self, by: [f64; 3]) -> Field<'a> {
         let most = by.iter().copied().fold(0.0, f64::max);
-        let Field { radius, pin_distance, smallest, largest } = self;
+        let Field { radius, pin_distance, facing, smallest, largest } = self;
         Field {
             radius: Box::new(move |p| radius(scaled(p, by))),
             // No farther than it is in any direction.
             pin_distance: Box::new(move |p| pin_distance(scaled(p, by)) / most),
+            facing,
             smallest,
             largest,
         }
@@ -76,6 +84,19 @@ impl FromStr for Stretch {
 impl FieldArgs {
     /// What the arguments mean for a mesh, the radius being `radius` where nothing else is said.
     pub fn resolve<'a>(&'a self, input: &'a Input, radius: f64) -> Result<Field<'a>> {
+        let mut field = self.in_space(input, radius)?;
+        if !self.radius_facing.is_empty() {
+            let facing = move |n: Vector| self.radius_facing.iter().map(|f| f.factor(&n)).product();
+            field.facing = Some(Box::new(facing));
+            let factors = || self.radius_facing.iter().map(|f| f.factor);
+            field.smallest *= factors().map(|f| f.min(1.0)).product::<f64>();
+            field.largest *= factors().map(|f| f.max(1.0)).product::<f64>();
+        }
+        Ok(field)
+    }
+
+    /// The radius by place alone, and what is pinned.
+    fn in_space<'a>(&'a self, input: &'a Input, radius: f64) -> Result<Field<'a>> {
         let pin_distance = Box::new(move |p: Point| self.pin_distance(p));
         for (typed, distance) in self.named_pins() {
             if input.triangles.points.iter().all(|&p| distance(p) > 0.0) {
@@ -90,7 +111,8 @@ impl FieldArgs {
             }
             let (a, b) = (from.radius, to.radius);
             let at = move |p: Point| a + (b - a) * ((p - from.place).dot(&along) / length2).clamp(0.0, 1.0);
-            return Ok(Field { radius: Box::new(at), pin_distance, smallest: a.min(b), largest: a.max(b) });
+            let (smallest, largest) = (a.min(b), a.max(b));
+            return Ok(Field { radius: Box::new(at), pin_distance, facing: None, smallest, largest });
         }
         if self.radius_by_vertex {
             let scalars = &input.polygons.scalars;
@@ -117,11 +139,12 @@ impl FieldArgs {
             return Ok(Field {
                 radius: Box::new(at),
                 pin_distance,
+                facing: None,
                 smallest: radius * smallest,
                 largest: radius * largest,
             });
         }
-        Ok(Field { radius: Box::new(move |_| radius), pin_distance, smallest: radius, largest: radius })
+        Ok(Field { radius: Box::new(move |_| radius), pin_distance, facing: None, smallest: radius, largest: radius })
     }
 
     fn pin_distance(&self, p: Point) -> f64 {
@@ -163,7 +186,7 @@ fn typed(numbers: &[f64]) -> String {
 }
 
 /// So many finite numbers with commas between them.
-fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+pub(super) fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let parse = |t: &str| t.trim().parse::<f64>().ok().filter(|x| x.is_finite());
     let found: Option<Vec<f64>> = text.split(',').map(parse).collect();
     found?.try_into().ok()
@@ -185,6 +208,36 @@ impl FromStr for PlacedRadius {
             Some(PlacedRadius { place: Point::from(numbers::<3>(place)?), radius })
         };
         read().ok_or_else(|| "write a place and the radius there, for example 10,0,0=0.5".to_owned())
+    }
+}
+
+/// A direction, and what the radius is multiplied by where the surface faces it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Facing {
+    /// Of unit length.
+    direction: Vector,
+    factor: f64,
+}
+
+impl Facing {
+    /// What the radius is multiplied by where the surface has this normal.
+    fn factor(&self, normal: &Vector) -> f64 {
+        let cosine = self.direction.dot(normal).clamp(0.0, 1.0);
+        1.0 + (self.factor - 1.0) * cosine * cosine
+    }
+}
+
+impl FromStr for Facing {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Facing, String> {
+        let read = || {
+            let (direction, factor) = text.split_once('=')?;
+            let [factor] = numbers::<1>(factor)?;
+            let direction = Vector::from(numbers::<3>(direction)?).try_normalize(0.0)?;
+            (1e-3..=1e3).contains(&factor).then_some(Facing { direction, factor })
+        };
+        read().ok_or_else(|| "write a direction and a factor from 0.001 to 1000, for example 0,0,1=0.5".to_owned())
     }
 }
 
@@ -276,6 +329,11 @@ mod tests {
             assert!(text.parse::<PinBox>().is_err(), "{text}");
         }
         assert!("0,0,0,0".parse::<PinBall>().is_err() && "0,0,0,0,0,0,0".parse::<PinLine>().is_err());
+        for text in ["", "0,0,0=1", "0,0,1", "0,0,1=0", "0,0,1=nan", "0,1=2"] {
+            assert!(text.parse::<Facing>().is_err(), "{text}");
+        }
+        let up: Facing = "0,0,9=0.5".parse().unwrap();
+        assert_eq!([Vector::z(), Vector::x(), -Vector::z()].map(|n| up.factor(&n)), [0.5, 1.0, 1.0]);
         assert!("0,0=1".parse::<PlacedRadius>().is_err() && "0,0,0=1%".parse::<PlacedRadius>().is_err());
     }
 }

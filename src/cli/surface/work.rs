@@ -19,8 +19,13 @@ const EDGE: f64 = 1.0 / 6.0;
 /// They are no shorter than this part of the radius, however fine the mesh.
 const FINEST_EDGE: f64 = 1.0 / 30.0;
 
-/// Radii from the smallest to the largest of these, in diagonals of the mesh, make sense.
-const RADII: [f64; 2] = [1e-5, 1.0];
+/// Edges are no longer than this, in diagonals of the mesh, unless they are asked for: with a ball much larger than the mesh, whose
+/// closing is nearly the convex hull, parts of the radius would be.
+const LONGEST_EDGE: f64 = 1.0 / 40.0;
+
+/// Radii from the smallest to the largest of these, in diagonals of the mesh, make sense. Beyond the largest the closing is the
+/// convex hull but for a thousandth of the diagonal.
+const RADII: [f64; 2] = [1e-5, 100.0];
 
 /// Edges shorter than this, in diagonals, would make more triangles than a machine can hold.
 const SHORTEST_EDGE: f64 = 1e-5;
@@ -135,6 +140,11 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
             bail!("--stretch: only --method auto and direct roll an ellipsoid");
         }
     }
+    if field.facing.is_some() && args.method != MethodArg::Flow {
+        bail!(
+            "--radius-facing: a ball has no direction, only the flow can tell where the surface faces: add --method flow"
+        );
+    }
     for r in [field.smallest, field.largest] {
         if !(RADII[0] * diagonal..=RADII[1] * diagonal).contains(&r) {
             bail!(
@@ -146,7 +156,9 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
     }
     let edge = match args.edge_length {
         Some(edge) => edge.on(diagonal),
-        None => (EDGE * field.smallest).min(input.triangles.mean_edge().max(FINEST_EDGE * field.smallest)),
+        None => (EDGE * field.smallest)
+            .min(input.triangles.mean_edge().max(FINEST_EDGE * field.smallest))
+            .min(LONGEST_EDGE * diagonal),
     };
     if edge < SHORTEST_EDGE * diagonal || edge > field.smallest {
         bail!(

@@ -118,7 +118,8 @@ impl<'a> SurfaceFront<'a> {
     /// no radius changes nothing.
     pub(super) fn bind(&mut self, v: u32) {
         let p = self.point(v);
-        let radius = (self.field.radius)(p);
+        let facing = self.field.facing.as_ref().map_or(1.0, |facing| facing(self.normal(v)));
+        let radius = (self.field.radius)(p) * facing;
         let distance = (self.field.pin_distance)(p);
         let vertex = &mut self.vertices[v as usize];
         if radius.is_normal() && radius > 0.0 {
@@ -165,6 +166,10 @@ impl<'a> SurfaceFront<'a> {
             let seen = std::mem::replace(&mut self.vertices[v as usize].seen, self.round);
             if seen == self.round || !self.mesh.has_vertex(v) || self.vertices[v as usize].pinned {
                 continue;
+            }
+            if self.field.facing.is_some() {
+                // Its neighbours may have turned it.
+                self.bind(v);
             }
             if let Some((way, beyond)) = self.let_go(v, &mut around) {
                 let (round, slot) = (self.round, self.moving.len() as u32);

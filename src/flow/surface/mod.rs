@@ -25,7 +25,7 @@ pub use result::FlownSurface;
 
 use super::advance::{Advance, End, OnContact, Status};
 use super::obstacle::Obstacle;
-use crate::mesh::{HalfEdgeMesh, NotManifold, Point, TriangleMesh};
+use crate::mesh::{HalfEdgeMesh, NotManifold, Point, TriangleMesh, Vector};
 
 /// The time step tau in units of h².
 pub const DEFAULT_SURFACE_TIME_STEP: f64 = 2.0;
@@ -44,12 +44,20 @@ pub struct SurfaceField<'a> {
     /// Where the ball touches, for a flow that is to land there; `None` for one that ends at the bound on curvature. Only closing
     /// asks for it, and opening, which closes what is empty: there it is the ball that rolls inside.
     pub contact: Option<Contact<'a>>,
+    /// What the radius is multiplied by where the outward unit normal is this one; nothing: it is the same whichever way the
+    /// surface faces. The normal is the one that the surface has at the time.
+    pub facing: Option<Box<dyn Fn(Vector) -> f64 + 'a>>,
 }
 
 impl SurfaceField<'_> {
     /// The same radius everywhere, and no pins.
     pub fn constant(radius: f64) -> SurfaceField<'static> {
-        SurfaceField { radius: Box::new(move |_| radius), pin_distance: Box::new(|_| f64::INFINITY), contact: None }
+        SurfaceField {
+            radius: Box::new(move |_| radius),
+            pin_distance: Box::new(|_| f64::INFINITY),
+            contact: None,
+            facing: None,
+        }
     }
 }
 
@@ -185,11 +193,14 @@ impl<'a> SurfaceFlow<'a> {
         let (input, obstacle) =
             if mirrored { (surface.reversed(), Obstacle::CLOSING) } else { (surface.clone(), obstacle) };
         let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
-        let field = if obstacle == Obstacle::CLOSING && kind == Kind::Minimum {
+        let mut field = if obstacle == Obstacle::CLOSING && kind == Kind::Minimum {
             field
         } else {
             SurfaceField { contact: None, ..field }
         };
+        if mirrored {
+            field.facing = field.facing.map(|facing| Box::new(move |n: Vector| facing(-n)) as Box<_>);
+        }
         let freeze = on_contact == OnContact::Freeze;
         let front = SurfaceFront::new(input, mesh, field, obstacle, kind, edge, freeze);
         Ok(SurfaceFlow { advance: Advance::new(front, time_step, tolerance, on_contact), mirrored })

@@ -248,6 +248,7 @@ fn pins_and_boundaries_stay() {
         radius: Box::new(|_| R),
         pin_distance: Box::new(|p: Point| (p - Point::new(1.0, 1.0, 1.0)).norm() - 0.1),
         contact: None,
+        facing: None,
     };
     let mut flow = SurfaceFlow::new(&angle_piece(), Obstacle::CLOSING, field, &SurfaceSettings::new(0.1)).unwrap();
     flow.run(f64::INFINITY);
@@ -261,6 +262,38 @@ fn pins_and_boundaries_stay() {
     let corner = |p: &Point| p.z == 0.0;
     let expected = open.points.iter().filter(|p| corner(p)).count();
     assert_eq!(result.points.iter().filter(|p| corner(p)).count(), expected);
+}
+
+#[test]
+fn the_radius_may_hang_on_where_the_surface_faces() {
+    // A channel: one concave edge faces along x, the other one against it.
+    let outline = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [3.0, 2.0], [3.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let channel = prism(&outline, 1.5);
+    let h = 0.06;
+    let limit = |mesh: &TriangleMesh, obstacle: Obstacle, sign: f64| {
+        let facing = move |n: Vector| if sign * n.x < -0.1 { 0.5 } else { 1.0 };
+        let field = SurfaceField { facing: Some(Box::new(facing)), ..SurfaceField::constant(R) };
+        let mut flow = SurfaceFlow::new(mesh, obstacle, field, &SurfaceSettings::new(h)).unwrap();
+        flow.run(f64::INFINITY);
+        assert!(flow.report().end.unwrap().is_limit(), "{:?}", flow.report());
+        flow.result()
+    };
+    let closed = limit(&channel, Obstacle::CLOSING, 1.0);
+    for (corner, sign, r) in [(1.0, 1.0, R), (3.0, -1.0, 0.5 * R)] {
+        let errors: Vec<f64> = closed
+            .points
+            .iter()
+            .map(|p| [sign * (p.x - corner), p.y - 1.0, p.z])
+            .filter(|[x, y, z]| (1e-9..0.7 * r).contains(x) && (1e-9..0.7 * r).contains(y) && (0.3..1.2).contains(z))
+            .map(|[x, y, _]| (r - (r - x).hypot(r - y)) / h)
+            .collect();
+        let (_, largest) = summary(&errors);
+        assert!(errors.len() > 20 && largest < 0.1, "{corner}: {} vertices, {largest}", errors.len());
+    }
+    // What is empty faces the other way.
+    let opened = limit(&channel.reversed(), Obstacle::OPENING, -1.0);
+    assert_eq!(closed.points, opened.points);
+    assert_eq!(closed.faces, opened.faces.iter().map(|&[a, b, c]| [a, c, b]).collect::<Vec<_>>());
 }
 
 #[test]

@@ -1,0 +1,157 @@
+//! `clopen surface offset IN -d DISTANCE`.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use anyhow::{Context as _, Result, bail};
+use clap::Args;
+
+use super::MeshLength;
+use super::work::{Input, format_of};
+use crate::cli::check::FormatArg;
+use crate::cli::{ExitStatus, output};
+use crate::io::mesh as files;
+use crate::mesh::{PolygonMesh, Thickness, offset_part, self_intersections};
+
+/// The arguments.
+#[derive(Clone, Debug, Args)]
+pub(super) struct OffsetArgs {
+    /// The mesh: OBJ, STL or PLY by its name; - is standard input
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// How far each face moves along its normal: in units of the mesh, or 2% (of the diagonal of its box); below zero inward
+    #[arg(short, long, value_name = "DISTANCE", allow_hyphen_values = true)]
+    distance: SignedLength,
+    /// Where the result goes: OBJ, STL or PLY by its name; standard output, as OBJ, unless given
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Give the solid between the mesh and the moved one, with walls along borders
+    #[arg(long)]
+    shell: bool,
+    /// Take only the faces with a corner that was moved: the mesh is a PLY that `close`, `open` or `clopen` wrote, with a
+    /// displacement for each vertex
+    #[arg(long)]
+    only_moved: bool,
+    /// Mend what can be mended without a choice, before anything is moved
+    #[arg(long)]
+    repair: bool,
+    /// How to print the report: text goes to standard error, json to standard output
+    #[arg(long, value_enum, default_value_t = FormatArg::Text)]
+    format: FormatArg,
+}
+
+/// A length with a sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct SignedLength {
+    length: MeshLength,
+    sign: f64,
+}
+
+impl FromStr for SignedLength {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<SignedLength, String> {
+        let text = text.trim();
+        let (digits, sign) = text.strip_prefix('-').map_or((text, 1.0), |digits| (digits, -1.0));
+        let length =
+            digits.parse().map_err(|_| "write 0.05 (in units of the mesh), 2%, or -0.05 for inward".to_owned())?;
+        Ok(SignedLength { length, sign })
+    }
+}
+
+/// What was done.
+#[derive(Clone, Debug, serde::Serialize)]
+struct Report {
+    distance_units: f64,
+    vertices_in: usize,
+    faces_in: usize,
+    faces_taken: usize,
+    vertices_out: usize,
+    faces_out: usize,
+    volume_in: f64,
+    volume_out: f64,
+    self_intersections_in: usize,
+    self_intersections_out: usize,
+    /// A corner of the first face that passes through another one.
+    first_self_intersection: Option<[f64; 3]>,
+    remarks: Vec<String>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where a mesh cannot be read, is no surface, cannot be moved, or the result cannot be written.
+pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
+    let target = args.output.clone().unwrap_or_else(|| PathBuf::from("-"));
+    if args.format == FormatArg::Json && target.as_os_str() == "-" {
+        bail!("--format json prints the report on standard output, where the mesh would go: add -o OUT.obj");
+    }
+    output::keep_input(&args.input, &target)?;
+    output::keep_folder(&target)?;
+    let format = format_of(&target)?;
+    let input = Input::read(&args.input, args.repair)?;
+    let mesh = &input.polygons;
+    let diagonal = input.triangles.diagonal();
+    let is_wanted = |polygon: &[u32]| !args.only_moved || has_moved(mesh, polygon, diagonal);
+    let taken = mesh.polygons().filter(|polygon| is_wanted(polygon)).count();
+    if args.only_moved && mesh.scalars.is_empty() {
+        bail!(
+            "--only-moved: the mesh has no displacements: write it as PLY, clopen surface close IN -r RADIUS -o OUT.ply"
+        );
+    }
+    if taken == 0 {
+        bail!("--only-moved: no vertex of the mesh has moved");
+    }
+    let distance = args.distance.sign * args.distance.length.on(diagonal);
+    let thickness = if args.shell { Thickness::Shell } else { Thickness::Surface };
+    let moved = offset_part(mesh, distance, thickness, is_wanted).with_context(|| args.input.display().to_string())?;
+    let triangles = moved.triangulated();
+    let crossings = self_intersections(&triangles);
+    output::write(&target, &files::write(&moved, format))?;
+    let report = Report {
+        distance_units: distance,
+        vertices_in: input.polygons.points.len(),
+        faces_in: input.polygons.polygon_count(),
+        faces_taken: taken,
+        vertices_out: moved.points.len(),
+        faces_out: moved.polygon_count(),
+        volume_in: input.triangles.volume(),
+        volume_out: triangles.volume(),
+        self_intersections_in: self_intersections(&input.triangles).len(),
+        self_intersections_out: crossings.len(),
+        first_self_intersection: crossings.first().map(|&(f, _)| triangles.triangle(f as usize)[0].into()),
+        remarks: input.remarks(),
+    };
+    match args.format {
+        FormatArg::Text => output::say(&report.lines()),
+        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
+    }
+    let is_sound = report.self_intersections_out <= report.self_intersections_in;
+    Ok(if is_sound { ExitStatus::Done } else { ExitStatus::CheckFailed })
+}
+
+/// A vertex has moved if its displacement is above this, in diagonals of the mesh: less is rounding, where faces were only cut.
+const MOVED: f64 = 1e-6;
+
+/// Whether a corner of a polygon has moved.
+fn has_moved(mesh: &PolygonMesh, polygon: &[u32], diagonal: f64) -> bool {
+    polygon.iter().any(|&v| mesh.scalars.get(v as usize).is_some_and(|d| d.abs() > MOVED * diagonal))
+}
+
+impl Report {
+    fn lines(&self) -> String {
+        let mut text = format!(
+            "moved by {} along the normals: {} of {} faces, now {} vertices and {} faces; volume {}\n",
+            self.distance_units, self.faces_taken, self.faces_in, self.vertices_out, self.faces_out, self.volume_out
+        );
+        if let Some([x, y, z]) = self.first_self_intersection {
+            text += &format!(
+                "CROSSED: {} pairs of faces pass through each other ({} before), one at ({x:.4}, {y:.4}, {z:.4}): the surface is \
+                 more curved there than the distance allows\n",
+                self.self_intersections_out, self.self_intersections_in
+            );
+        }
+        self.remarks.iter().for_each(|remark| text += &format!("note: {remark}\n"));
+        text
+    }
+}

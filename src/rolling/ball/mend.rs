@@ -1,0 +1,266 @@
+//! Cutting out what tore, and closing the rims with each other where they lie on the same sheet of the closing.
+//!
+//! Where the ball no longer fits between two walls, the closing joins them: another topology than that of the input. The vertices
+//! of each wall go to the mouths of the gap, some to one, some to another, and what spans from mouth to mouth is not the
+//! closing. Cut out, it leaves a rim for each wall along the middle of each mouth, on the closing: the rims of facing walls
+//! lie side by side there, and the strip between them is filled from where they are nearest.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::conflicts;
+use super::contact::{Rest, UNTOUCHED};
+use crate::mesh::{Point, Vector};
+use super::covering::{Covering, State, area_vector};
+use super::zip::{Corner, Strip, zip};
+
+/// Balls at the ends of an edge that are farther apart than this many radii are on different sides of a gap.
+const JUMP: f64 = 1.9;
+
+/// What is longer than this many edge lengths after remeshing could not be split, and may be torn.
+const STRETCHED: f64 = 2.0;
+
+impl Covering<'_> {
+    /// Cuts out the faces that are not the closing, and fills what is left open. Whether anything was done.
+    ///
+    /// Gaps that have no rim in common are mended each for itself: one that cannot be is left as it is.
+    pub fn mend(&mut self, threads: usize) -> bool {
+        let torn = self.torn(threads);
+        self.mend_these(torn)
+    }
+
+    pub fn mend_jumps(&mut self) -> bool {
+        let torn = self.active_faces().into_iter().filter(|&f| self.jumps(f)).collect();
+        self.mend_these(torn)
+    }
+
+    fn jumps(&self, f: u32) -> bool {
+        self.mesh.face(f).iter().any(|&v| self.state[v as usize] == State::Lost)
+            || self.mesh.half_edges(f).iter().any(|&h| {
+                let (u, v) = (self.mesh.origin(h), self.mesh.target(h));
+                let (Some(a), Some(b)) = (self.rest(u), self.rest(v)) else { return false };
+                self.mesh.length(h) > STRETCHED * self.edge && (a.center - b.center).norm() > JUMP * a.radius
+            })
+    }
+
+    fn mend_these(&mut self, torn: Vec<u32>) -> bool {
+        if torn.is_empty() {
+            return false;
+        }
+        if std::env::var("DBG2").is_ok() { for &f in torn.iter().step_by(torn.len()/12+1) { let c=self.mesh.face(f); let t=self.mesh.triangle(f); eprintln!("F {:?} n {:.2?}",c, area_vector(t).normalize().as_slice()); for v in c { let p=self.point(v); eprint!("   {:.4?} ",p.coords.as_slice()); for r in self.rests(v) {eprint!(" c {:.4?} n {:.2?} {:?}",r.center.coords.as_slice(),r.normal.as_slice(),r.contacts);} eprintln!(); } } }
+        let n=torn.len(); let gone = self.cut(torn);eprintln!("part {:.3} torn {n} gone {}",self.part,gone.len());
+        let Some(rims) = self.rims(&gone) else { return false };
+        let corner =
+            |&v: &u32| Corner { vertex: v, point: self.point(v), normal: self.rest(v).map(|rest| rest.normal) };
+        let corners: Vec<Vec<Corner>> = rims.iter().map(|rim| rim.iter().map(corner).collect()).collect();
+        let is_edge = |a: u32, b: u32| {
+            let has = |a, b| {
+                let mut spokes = self.mesh.spokes(a);
+                spokes.any(|h| self.mesh.target(h) == b && !gone.contains(&self.mesh.face_of(h)))
+            };
+            has(a, b) || has(b, a)
+        };
+        let reach = self.radius(corners.first().map_or(Point::origin(), |rim| rim[0].point)).max(3.0 * self.edge);
+        let strips = zip(&corners, reach, self.edge, is_edge);
+        let mut mended = false;
+        for (faces, polygons) in self.gaps(&gone, &strips) {
+            let mut new: Vec<[u32; 3]> = polygons.iter().flat_map(|&p| strips[p].triangles.iter().copied()).collect();
+            let hubs: Option<Vec<(Point, Rest)>> = polygons.iter().filter(|&&p| strips[p].rest.len() > 2).map(|&p| self.hub(&strips[p].rest)).collect();
+            let Some(hubs) = hubs else { continue };
+            let fans = polygons.iter().map(|&p| &strips[p].rest).filter(|rest| rest.len() > 2);
+            for (fan, (p, rest)) in fans.zip(hubs) {
+                let hub = self.mesh.add_vertex(p);
+                self.state.push(State::Moved(rest));
+                new.extend((0..fan.len()).map(|k| [fan[k], fan[(k + 1) % fan.len()], hub]));
+            }
+            mended |= self.put(&faces, &new);
+        }
+        mended
+    }
+
+    /// A point of the closing in the middle of a polygon.
+    fn hub(&self, polygon: &[u32]) -> Option<(Point, Rest)> {
+        let rests: Vec<&Rest> = polygon.iter().filter_map(|&v| self.rest(v)).collect();
+        let count = polygon.len() as f64;
+        let middle = Point::from(polygon.iter().map(|&v| self.point(v).coords).sum::<Vector>() / count);
+        let start = Point::from(rests.iter().map(|rest| rest.center.coords).sum::<Vector>() / rests.len().max(1) as f64);
+        let rest = self.ground.rest(middle, start, self.radius(middle), UNTOUCHED)?;
+        Some((rest.point(), rest))
+    }
+
+    /// Puts faces in the place of others. Whether that makes a surface.
+    fn put(&mut self, gone: &[u32], new: &[[u32; 3]]) -> bool {
+        let corners: BTreeSet<u32> = gone.iter().flat_map(|&f| self.mesh.face(f)).collect();
+        // A new face counts as a part of one that it touches.
+        let parents: BTreeMap<u32, u32> =
+            gone.iter().flat_map(|&f| self.mesh.face(f).map(|v| (v, self.parent[f as usize]))).collect();
+        let first = self.mesh.face_count() as u32;
+        if let Err(e) = self.mesh.replace(gone, new) {
+            eprintln!("replace {e}");
+            return false;
+        }
+        self.parent.extend(new.iter().map(|face| parents[&face[0]]));
+        for f in gone.iter().copied().chain(first..self.mesh.face_count() as u32) {
+            self.touch(f);
+        }
+        for v in corners {
+            if !self.mesh.has_vertex(v) {
+                self.state[v as usize] = State::Kept;
+            }
+        }
+        true
+    }
+
+    /// What goes, by gaps: pieces of it and the strips that fill them, as far as they have rims in common.
+    fn gaps(&self, gone: &BTreeSet<u32>, strips: &[Strip]) -> Vec<(Vec<u32>, Vec<usize>)> {
+        let mut strip_at: BTreeMap<u32, usize> = BTreeMap::new();
+        for (k, strip) in strips.iter().enumerate() {
+            strip_at.extend(strip.corners.iter().map(|&v| (v, k)));
+        }
+        let mut faces_at: Vec<Vec<u32>> = vec![Vec::new(); strips.len()];
+        for &f in gone {
+            for v in self.mesh.face(f) {
+                if let Some(&k) = strip_at.get(&v) {
+                    faces_at[k].push(f);
+                }
+            }
+        }
+        let mut left = gone.clone();
+        let mut gaps = Vec::new();
+        while let Some(first) = left.pop_first() {
+            let (mut faces, mut at) = (vec![first], 0);
+            let mut filled: BTreeSet<usize> = BTreeSet::new();
+            while at < faces.len() {
+                let f = faces[at];
+                at += 1;
+                let mut near: Vec<u32> = self.beside(f).collect();
+                for k in self.mesh.face(f).iter().filter_map(|v| strip_at.get(v)) {
+                    if filled.insert(*k) {
+                        near.extend(&faces_at[*k]);
+                    }
+                }
+                faces.extend(near.into_iter().filter(|g| left.remove(g)));
+            }
+            faces.sort_unstable();
+            gaps.push((faces, filled.into_iter().collect()));
+        }
+        gaps
+    }
+
+    /// What goes with the faces that are torn, so that every vertex beside it keeps a single fan of faces.
+    fn cut(&self, torn: Vec<u32>) -> BTreeSet<u32> {
+        let mut gone: BTreeSet<u32> = torn.into_iter().collect();
+        let mut spared: BTreeSet<u32> = BTreeSet::new();
+        loop {
+            self.widen(&mut gone, &mut spared);
+            let count = gone.len();
+            self.take_islands(&mut gone);
+            if gone.len() == count {
+                return gone;
+            }
+        }
+    }
+
+    /// The faces that are not the closing, as far as long edges and folds tell where to look.
+    fn torn(&self, threads: usize) -> Vec<u32> {
+        let is_suspect = |f: u32| {
+            let corners = self.mesh.face(f);
+            corners.iter().any(|&v| self.state[v as usize] == State::Lost)
+                || self.mesh.half_edges(f).iter().any(|&h| self.mesh.length(h) > STRETCHED * self.edge)
+                || self.agreement(corners, &area_vector(self.mesh.triangle(f))) < conflicts::FOLDED
+        };
+        let suspects: Vec<u32> = self.active_faces().into_iter().filter(|&f| is_suspect(f)).collect();
+        {let f=conflicts::among(self, &suspects, threads); if std::env::var("DBG").is_ok() {for c in &f.conflicts {eprintln!("T {:.3} {:?} {:.4} {:.4} {:.4}",self.part,c.trouble,c.place.x,c.place.y,c.place.z)}} f.faces}
+    }
+
+    /// Takes so many faces more that every vertex beside what goes keeps one fan of faces; where that would take what never
+    /// moved, its faces are spared.
+    fn widen(&self, gone: &mut BTreeSet<u32>, spared: &mut BTreeSet<u32>) {
+        let mut open: Vec<u32> = gone.iter().flat_map(|&f| self.mesh.face(f)).collect();
+        while let Some(v) = open.pop() {
+            let faces: Vec<u32> = self.mesh.faces_at(v).collect();
+            let starts = (0..faces.len()).filter(|&k| {
+                let before = faces[(k + faces.len() - 1) % faces.len()];
+                !gone.contains(&faces[k]) && gone.contains(&before)
+            });
+            if starts.count() < 2 {
+                continue;
+            }
+            let may_go = |f: &u32| !self.mesh.face(*f).iter().all(|&v| self.is_kept(v)) && !spared.contains(f);
+            if faces.iter().all(may_go) {
+                gone.extend(&faces);
+            } else {
+                for f in &faces {
+                    gone.remove(f);
+                }
+                spared.extend(&faces);
+            }
+            open.extend(faces.iter().flat_map(|&f| self.mesh.face(f)).filter(|&u| u != v));
+        }
+    }
+
+    /// Takes also what is cut off from all that never moved: pieces of surface deep in a gap.
+    fn take_islands(&self, gone: &mut BTreeSet<u32>) {
+        let mut seen: BTreeSet<u32> = BTreeSet::new();
+        let beside: Vec<u32> = gone.iter().flat_map(|&f| self.beside(f)).filter(|f| !gone.contains(f)).collect();
+        let mut islands: Vec<Vec<u32>> = Vec::new();
+        let mut is_mainland = false;
+        for start in beside {
+            if seen.contains(&start) {
+                continue;
+            }
+            seen.insert(start);
+            let (mut piece, mut at, mut stays) = (vec![start], 0, false);
+            while at < piece.len() {
+                let f = piece[at];
+                at += 1;
+                if self.mesh.face(f).iter().all(|&v| self.is_kept(v)) {
+                    stays = true;
+                    continue;
+                }
+                for g in self.beside(f) {
+                    if !gone.contains(&g) && seen.insert(g) {
+                        piece.push(g);
+                    }
+                }
+            }
+            if stays {
+                is_mainland = true;
+            } else {
+                islands.push(piece);
+            }
+        }
+        if !is_mainland {
+            // All of it moves: the largest piece is the surface.
+            islands.sort_by_key(|piece| piece.len());
+            islands.pop();
+        }
+        gone.extend(islands.into_iter().flatten());
+    }
+
+    /// The faces beside a face.
+    fn beside(&self, f: u32) -> impl Iterator<Item = u32> + '_ {
+        self.mesh.half_edges(f).into_iter().filter_map(|h| self.mesh.twin(h)).map(|t| self.mesh.face_of(t))
+    }
+
+    /// The rims of what goes, each as the faces that go run around it. `None` where it reaches a boundary.
+    fn rims(&self, gone: &BTreeSet<u32>) -> Option<Vec<Vec<u32>>> {
+        let mut next: BTreeMap<u32, u32> = BTreeMap::new();
+        for &f in gone {
+            for h in self.mesh.half_edges(f) {
+                if !gone.contains(&self.mesh.face_of(self.mesh.twin(h)?)) {
+                    next.insert(self.mesh.origin(h), self.mesh.target(h));
+                }
+            }
+        }
+        let mut rims = Vec::new();
+        while let Some((first, mut at)) = next.pop_first() {
+            let mut rim = vec![first];
+            while at != first {
+                rim.push(at);
+                at = next.remove(&at)?;
+            }
+            rims.push(rim);
+        }
+        Some(rims)
+    }
+}
