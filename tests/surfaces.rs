@@ -198,3 +198,41 @@ fn a_gap_that_the_ball_would_tear_is_told_and_left_alone() {
     assert!(result.volume() >= input.volume() * (1.0 - 1e-9));
     assert!(!closed.conflicts.is_empty(), "a gap open on three sides has no closing without a tear");
 }
+
+/// Vertices less edges plus faces: 2 for a ball, 0 with a handle.
+fn euler(faces: &[[u32; 3]]) -> i64 {
+    let mut edges: Vec<[u32; 2]> =
+        faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    let mut vertices: Vec<u32> = faces.as_flattened().to_vec();
+    vertices.sort_unstable();
+    vertices.dedup();
+    vertices.len() as i64 - edges.len() as i64 + faces.len() as i64
+}
+
+#[test]
+fn a_window_narrower_than_the_ball_is_shut() {
+    // A plate of 2 x 2 x .3 with a window of .2 x .2: no ball of radius .15 gets through it.
+    let frame = solids::blocks([40, 40, 6], 0.05, |[x, y, _]| !((18..22).contains(&x) && (18..22).contains(&y)));
+    let input = triangles(&frame);
+    assert_eq!(euler(&input.faces), 0);
+    let closed = close(&input, 0.15, 0.05);
+    check(&input, &closed);
+    assert!(closed.conflicts.is_empty(), "{} {:?}", closed.conflicts.len(), closed.conflicts.first());
+    assert_eq!(euler(&closed.faces), 2, "the handle is gone");
+    let result = TriangleMesh::new(closed.points.clone(), closed.faces.clone());
+    assert!(self_intersections(&result).is_empty());
+    // Above the middle the ball rests on the four corners of the window or on its edges: it dips by no more than this.
+    let dip = 0.15 - (0.15f64 * 0.15 - 0.1 * 0.1).sqrt();
+    let lowest = closed
+        .points
+        .iter()
+        .filter(|p| (p.x - 1.0).hypot(p.y - 1.0) < 0.05 && p.z > 0.15)
+        .map(|p| p.z)
+        .fold(f64::INFINITY, f64::min);
+    let mut near: Vec<&Point> = closed.points.iter().filter(|p| (p.x - 1.0).hypot(p.y - 1.0) < 0.15).collect();
+    near.sort_by(|a, b| (a.x - 1.0).hypot(a.y - 1.0).total_cmp(&(b.x - 1.0).hypot(b.y - 1.0)));
+    eprintln!("{:?}", &near[..near.len().min(12)]);
+    assert!((0.3 - lowest - dip).abs() < 0.01, "{lowest}");
+}

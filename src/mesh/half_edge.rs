@@ -203,7 +203,7 @@ impl HalfEdgeMesh {
     }
 
     /// A new vertex without faces.
-    fn add_vertex(&mut self, p: Point) -> u32 {
+    pub fn add_vertex(&mut self, p: Point) -> u32 {
         self.points.push(p);
         self.outgoing.push(NONE);
         self.points.len() as u32 - 1
@@ -363,5 +363,6 @@ impl HalfEdgeMesh {
     }
 }
 
+mod replace;
 #[cfg(test)]
 mod tests;

@@ -9,8 +9,8 @@
 //! that are none or not finite, corners without a vertex, headers that announce more than the file has. Memory and time are
 //! proportional to the file, whatever its header says.
 //!
-//! The PLY reader is our own: of the crates that read PLY none names the place of what is wrong, and they bring a parser
-//! generator for a header of ten lines.
+//! The PLY reader is our own: ply-rs-bw, the crate that was looked at, does not name the place of what is wrong, and brings a
+//! parser generator for a header of ten lines.
 
 mod error;
 mod obj;

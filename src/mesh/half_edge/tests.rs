@@ -146,3 +146,26 @@ fn edges_collapse_as_long_as_a_surface_is_left() {
         assert!((0..mesh.origin.len() as u32).all(|h| mesh.origin(h) == NONE || !mesh.can_collapse(h)));
     }
 }
+
+#[test]
+fn faces_are_replaced_where_that_leaves_a_surface() {
+    let mut mesh = octahedron();
+    let (count, before) = (mesh.face_count() as u32, euler(&mesh));
+    // Two neighbours go, and come back with the other diagonal.
+    let t = mesh.twin(0).unwrap();
+    let (a, b, c, d) = (mesh.origin(0), mesh.target(0), mesh.opposite(0), mesh.opposite(t));
+    let gone = [0, mesh.face_of(t)];
+    assert!(mesh.replace(&[], &[[a, b, d]]).is_err(), "a third face at an edge");
+    assert!(mesh.replace(&gone, &[[c, b, a], [a, d, b]]).is_err(), "oriented the other way");
+    assert_eq!(mesh.face_count() as u32, count, "nothing has changed");
+    check(&mesh);
+    mesh.replace(&gone, &[[d, c, a], [c, d, b]]).unwrap();
+    check(&mesh);
+    assert_eq!(euler(&mesh), before);
+    assert!(gone.iter().all(|&f| !mesh.has_face(f)) && mesh.has_face(count + 1));
+    assert!(mesh.half_edge(c, d).is_some() && mesh.half_edge(a, b).is_none());
+    // What goes without anything in its place leaves a boundary.
+    mesh.replace(&[count], &[]).unwrap();
+    check(&mesh);
+    assert!([a, c, d].iter().all(|&v| mesh.is_boundary(v)));
+}

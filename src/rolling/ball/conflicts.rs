@@ -1,8 +1,10 @@
 //! What is not the closing: tears, folds, and what dips into the input.
 
+use std::collections::BTreeMap;
+
 use super::covering::{Covering, State, area_vector};
 use super::parallel;
-use crate::mesh::Point;
+use crate::mesh::{Hierarchy, Point, cross};
 
 /// The middle of an edge or a face may be this far from the closing, in edge lengths, where the surface is whole.
 const TORN: f64 = 1.0;
@@ -50,20 +52,50 @@ pub(super) struct Found {
 /// Looks at all faces that moved.
 pub(super) fn find(covering: &Covering, threads: usize) -> Found {
     let active = covering.active_faces();
-    let looked = parallel::map(&active, threads, |&f| look(covering, f));
+    let mut found = among(covering, &active, threads);
+    // A blunt end of a thin sheet turns its back on the balls of both sides: what is folded passes through something.
+    let numbers: Vec<u32> = covering.mesh.faces().collect();
+    let faces: Vec<[u32; 3]> = numbers.iter().map(|&f| covering.mesh.face(f)).collect();
+    let hierarchy = Hierarchy::new(&covering.mesh.points, &faces);
+    let crosses = parallel::map(&active, threads, |&f| {
+        let [a, b, c] = covering.mesh.triangle(f);
+        hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |k| {
+            let g = numbers[k as usize];
+            f != g && cross([a, b, c], covering.mesh.triangle(g))
+        })
+    });
+    let mut bad: BTreeMap<u32, Conflict> = found.faces.into_iter().zip(found.conflicts).collect();
+    for (&f, _) in active.iter().zip(crosses).filter(|(_, crosses)| *crosses) {
+        bad.entry(f).or_insert(Conflict { place: middle(covering.mesh.triangle(f)), trouble: Trouble::Fold });
+    }
+    (found.faces, found.conflicts) = bad.into_iter().unzip();
+    found
+}
+
+/// Looks at some faces.
+pub(super) fn among(covering: &Covering, faces: &[u32], threads: usize) -> Found {
+    let looked = parallel::map(faces, threads, |&f| look(covering, f));
     let mut found = Found { faces: Vec::new(), conflicts: Vec::new(), error: 0.0 };
-    for (f, seen) in active.into_iter().zip(looked) {
+    for (&f, seen) in faces.iter().zip(looked) {
         match seen {
             Ok(error) => found.error = found.error.max(error),
             Err(trouble) => {
-                let [a, b, c] = covering.mesh.triangle(f);
-                let place = Point::from((a.coords + b.coords + c.coords) / 3.0);
                 found.faces.push(f);
-                found.conflicts.push(Conflict { place, trouble });
+                found.conflicts.push(Conflict { place: middle(covering.mesh.triangle(f)), trouble });
             }
         }
     }
     found
+}
+
+/// The middle of a triangle.
+fn middle([a, b, c]: [Point; 3]) -> Point {
+    Point::from((a.coords + b.coords + c.coords) / 3.0)
+}
+
+/// Whether a face turns its back on a ball that touches one of its corners.
+pub(super) fn is_folded(covering: &Covering, f: u32) -> bool {
+    covering.agreement(covering.mesh.face(f), &area_vector(covering.mesh.triangle(f))) < FOLDED
 }
 
 /// How far the middle of a face and those of its long edges are from the closing.
@@ -73,18 +105,14 @@ fn look(covering: &Covering, f: u32) -> Result<f64, Trouble> {
         return Err(Trouble::Lost);
     }
     let triangle = covering.mesh.triangle(f);
-    if covering.agreement(corners, &area_vector(triangle)) < FOLDED {
-        return Err(Trouble::Fold);
-    }
-    let [a, b, c] = triangle;
-    let center = Point::from((a.coords + b.coords + c.coords) / 3.0);
+    let center = middle(triangle);
     if covering.ground.depth(center, covering.edge) > DIP * covering.edge {
         return Err(Trouble::Dip);
     }
     // Balls at the corners may be those of different sides: the nearest that one of them rolls to counts, or one from above.
     let Some(normal) = area_vector(triangle).try_normalize(0.0) else { return Ok(0.0) };
     let rests: Vec<_> = corners.iter().filter_map(|&v| covering.rest(v)).collect();
-    if rests.is_empty() {
+    if rests.is_empty() && !covering.filled.contains(&f) {
         return Ok(0.0);
     }
     let long = covering

@@ -57,6 +57,12 @@ pub(super) const UNTOUCHED: [u32; 3] = [NONE; 3];
 
 impl Rest {
     /// The point of the result that it touches.
+    /// The ball of another radius that touches the same point.
+    pub fn grown(&self, radius: f64) -> Rest {
+        Rest { center: self.center + self.normal * (radius - self.radius), radius, ..*self }
+    }
+
+    /// The point of the result that it touches.
     pub fn point(&self) -> Point {
         self.center - self.normal * self.radius
     }

@@ -1,5 +1,7 @@
 //! The surface on its way to the closing.
 
+use std::collections::BTreeSet;
+
 use super::contact::{Ground, Rest, UNTOUCHED};
 use crate::mesh::{HalfEdgeMesh, Point, Vector};
 
@@ -10,6 +12,8 @@ pub(super) enum State {
     Kept,
     /// The ball at rest touches it.
     Moved(Rest),
+    /// Two balls touch it: it is on a ridge of the closing.
+    Ridge(Rest, Rest),
     /// No ball was found to touch it.
     Lost,
 }
@@ -23,18 +27,22 @@ pub(super) struct Covering<'a> {
     pub touched: Vec<bool>,
     /// The face of the input that each face is a part of, or took the place of.
     pub parent: Vec<u32>,
+    /// Faces that fill gaps: they may move though none of their corners does.
+    pub filled: BTreeSet<u32>,
     /// The part of its radius that the ball has now.
     pub part: f64,
     /// Its radius at a place.
     pub field: &'a (dyn Fn(Point) -> f64 + Sync),
     /// The edge length aimed at.
     pub edge: f64,
+    /// How many threads work.
+    pub threads: usize,
 }
 
 impl Covering<'_> {
     pub fn rest(&self, v: u32) -> Option<&Rest> {
         match &self.state[v as usize] {
-            State::Moved(rest) => Some(rest),
+            State::Moved(rest) | State::Ridge(rest, _) => Some(rest),
             _ => None,
         }
     }
@@ -57,9 +65,9 @@ impl Covering<'_> {
         self.ground.mesh.has_vertex(v)
     }
 
-    /// The faces at vertices that are not kept, in order.
+    /// The faces at vertices that are not kept and those that fill gaps, in order.
     pub fn active_faces(&self) -> Vec<u32> {
-        let mut faces: Vec<u32> = Vec::new();
+        let mut faces: Vec<u32> = self.filled.iter().copied().filter(|&f| self.mesh.has_face(f)).collect();
         for v in 0..self.state.len() as u32 {
             if !self.is_kept(v) {
                 faces.extend(self.mesh.faces_at(v));
@@ -87,12 +95,21 @@ impl Covering<'_> {
         self.touched[f as usize] = true;
     }
 
+    /// Whether both faces at an edge fill gaps.
+    pub fn is_filled(&self, h: u32) -> bool {
+        let fills = |h: u32| self.filled.contains(&self.mesh.face_of(h));
+        fills(h) && self.mesh.twin(h).is_some_and(fills)
+    }
+
     /// Puts a vertex on an edge.
     pub fn split(&mut self, h: u32, p: Point, state: State) -> u32 {
         let twin = self.mesh.twin(h);
         let w = self.mesh.split(h, p);
         self.state.push(state);
         for x in [Some(h), twin].into_iter().flatten() {
+            if self.filled.contains(&self.mesh.face_of(x)) {
+                self.filled.insert(self.parent.len() as u32);
+            }
             self.parent.push(self.parent[self.mesh.face_of(x) as usize]);
         }
         for x in [Some(h), twin].into_iter().flatten() {
@@ -104,7 +121,7 @@ impl Covering<'_> {
     /// Of the unit normal of a triangle and those of the balls that touch its moved corners the smallest cosine.
     pub fn agreement(&self, corners: [u32; 3], normal: &Vector) -> f64 {
         let Some(unit) = normal.try_normalize(0.0) else { return -1.0 };
-        corners.iter().filter_map(|&v| self.rest(v)).map(|rest| rest.normal.dot(&unit)).fold(1.0, f64::min)
+        corners.iter().map(|&v| self.agrees(v, &unit)).fold(1.0, f64::min)
     }
 
     /// Whether a triangle dips into the input, as far as its centre and the middles of its sides tell.

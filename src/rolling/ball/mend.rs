@@ -9,9 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::conflicts;
 use super::contact::{Rest, UNTOUCHED};
-use crate::mesh::{Point, Vector};
-use super::covering::{Covering, State, area_vector};
+use super::covering::{Covering, State};
 use super::zip::{Corner, Strip, zip};
+use crate::mesh::{Point, Vector};
 
 /// Balls at the ends of an edge that are farther apart than this many radii are on different sides of a gap.
 const JUMP: f64 = 1.9;
@@ -28,6 +28,7 @@ impl Covering<'_> {
         self.mend_these(torn)
     }
 
+    /// The same for what is known to be torn as soon as the vertices have gone to their balls.
     pub fn mend_jumps(&mut self) -> bool {
         let torn = self.active_faces().into_iter().filter(|&f| self.jumps(f)).collect();
         self.mend_these(torn)
@@ -46,8 +47,7 @@ impl Covering<'_> {
         if torn.is_empty() {
             return false;
         }
-        if std::env::var("DBG2").is_ok() { for &f in torn.iter().step_by(torn.len()/12+1) { let c=self.mesh.face(f); let t=self.mesh.triangle(f); eprintln!("F {:?} n {:.2?}",c, area_vector(t).normalize().as_slice()); for v in c { let p=self.point(v); eprint!("   {:.4?} ",p.coords.as_slice()); for r in self.rests(v) {eprint!(" c {:.4?} n {:.2?} {:?}",r.center.coords.as_slice(),r.normal.as_slice(),r.contacts);} eprintln!(); } } }
-        let n=torn.len(); let gone = self.cut(torn);eprintln!("part {:.3} torn {n} gone {}",self.part,gone.len());
+        let gone = self.cut(torn);
         let Some(rims) = self.rims(&gone) else { return false };
         let corner =
             |&v: &u32| Corner { vertex: v, point: self.point(v), normal: self.rest(v).map(|rest| rest.normal) };
@@ -64,15 +64,21 @@ impl Covering<'_> {
         let mut mended = false;
         for (faces, polygons) in self.gaps(&gone, &strips) {
             let mut new: Vec<[u32; 3]> = polygons.iter().flat_map(|&p| strips[p].triangles.iter().copied()).collect();
-            let hubs: Option<Vec<(Point, Rest)>> = polygons.iter().filter(|&&p| strips[p].rest.len() > 2).map(|&p| self.hub(&strips[p].rest)).collect();
+            let hubs: Option<Vec<(Point, Rest)>> =
+                polygons.iter().filter(|&&p| strips[p].rest.len() > 2).map(|&p| self.hub(&strips[p].rest)).collect();
             let Some(hubs) = hubs else { continue };
+            let first = self.state.len();
             let fans = polygons.iter().map(|&p| &strips[p].rest).filter(|rest| rest.len() > 2);
             for (fan, (p, rest)) in fans.zip(hubs) {
                 let hub = self.mesh.add_vertex(p);
                 self.state.push(State::Moved(rest));
                 new.extend((0..fan.len()).map(|k| [fan[k], fan[(k + 1) % fan.len()], hub]));
             }
-            mended |= self.put(&faces, &new);
+            let is_put = self.put(&faces, &new);
+            if !is_put {
+                self.state[first..].fill(State::Kept);
+            }
+            mended |= is_put;
         }
         mended
     }
@@ -82,7 +88,8 @@ impl Covering<'_> {
         let rests: Vec<&Rest> = polygon.iter().filter_map(|&v| self.rest(v)).collect();
         let count = polygon.len() as f64;
         let middle = Point::from(polygon.iter().map(|&v| self.point(v).coords).sum::<Vector>() / count);
-        let start = Point::from(rests.iter().map(|rest| rest.center.coords).sum::<Vector>() / rests.len().max(1) as f64);
+        let start =
+            Point::from(rests.iter().map(|rest| rest.center.coords).sum::<Vector>() / rests.len().max(1) as f64);
         let rest = self.ground.rest(middle, start, self.radius(middle), UNTOUCHED)?;
         Some((rest.point(), rest))
     }
@@ -94,11 +101,11 @@ impl Covering<'_> {
         let parents: BTreeMap<u32, u32> =
             gone.iter().flat_map(|&f| self.mesh.face(f).map(|v| (v, self.parent[f as usize]))).collect();
         let first = self.mesh.face_count() as u32;
-        if let Err(e) = self.mesh.replace(gone, new) {
-            eprintln!("replace {e}");
+        if self.mesh.replace(gone, new).is_err() {
             return false;
         }
         self.parent.extend(new.iter().map(|face| parents[&face[0]]));
+        self.filled.extend(first..self.mesh.face_count() as u32);
         for f in gone.iter().copied().chain(first..self.mesh.face_count() as u32) {
             self.touch(f);
         }
@@ -162,14 +169,15 @@ impl Covering<'_> {
 
     /// The faces that are not the closing, as far as long edges and folds tell where to look.
     fn torn(&self, threads: usize) -> Vec<u32> {
-        let is_suspect = |f: u32| {
-            let corners = self.mesh.face(f);
-            corners.iter().any(|&v| self.state[v as usize] == State::Lost)
-                || self.mesh.half_edges(f).iter().any(|&h| self.mesh.length(h) > STRETCHED * self.edge)
-                || self.agreement(corners, &area_vector(self.mesh.triangle(f))) < conflicts::FOLDED
+        let (mut torn, others): (Vec<u32>, Vec<u32>) =
+            self.active_faces().into_iter().partition(|&f| conflicts::is_folded(self, f));
+        let is_suspect = |f: &u32| {
+            self.mesh.face(*f).iter().any(|&v| self.state[v as usize] == State::Lost)
+                || self.mesh.half_edges(*f).iter().any(|&h| self.mesh.length(h) > STRETCHED * self.edge)
         };
-        let suspects: Vec<u32> = self.active_faces().into_iter().filter(|&f| is_suspect(f)).collect();
-        {let f=conflicts::among(self, &suspects, threads); if std::env::var("DBG").is_ok() {for c in &f.conflicts {eprintln!("T {:.3} {:?} {:.4} {:.4} {:.4}",self.part,c.trouble,c.place.x,c.place.y,c.place.z)}} f.faces}
+        let suspects: Vec<u32> = others.into_iter().filter(is_suspect).collect();
+        torn.extend(conflicts::among(self, &suspects, threads).faces);
+        torn
     }
 
     /// Takes so many faces more that every vertex beside what goes keeps one fan of faces; where that would take what never

@@ -1,8 +1,9 @@
 //! Triangles of one size and good shape where the surface moved, on the closing itself: every vertex that is put in or moved
 //! is where a ball at rest touches.
 
+use super::contact::{Rest, UNTOUCHED};
 use super::covering::{Covering, State, area_vector, quality};
-use crate::mesh::{NONE, Point};
+use crate::mesh::{NONE, Point, Vector};
 
 /// Edges shorter and longer than so many edge lengths are merged and split.
 const SHORTEST: f64 = 0.4;
@@ -17,6 +18,9 @@ const BAD: f64 = 0.2;
 /// Faces and balls that agree by less than this cosine do not agree.
 const DISAGREES: f64 = 0.5;
 
+/// Parts of a face that is cut may agree this little with their balls, or as little as the whole does.
+const TURNS: f64 = 0.2;
+
 /// Vertices of triangles that are worse than this, or agree less with their balls, are relaxed.
 const RELAXED: f64 = 0.6;
 
@@ -26,6 +30,7 @@ impl Covering<'_> {
         for _ in 0..rounds {
             self.merge_short();
             self.split_long();
+            self.sharpen();
             for _ in 0..3 {
                 if !self.turn_edges() {
                     break;
@@ -58,7 +63,8 @@ impl Covering<'_> {
     /// Whether the vertex at the start of `h` may go into the one at its end.
     fn may_merge(&self, h: u32) -> bool {
         let (a, b) = (self.mesh.origin(h), self.mesh.target(h));
-        if self.is_kept(a) || !self.mesh.can_collapse(h) {
+        let is_ridge = |v: u32| matches!(self.state[v as usize], State::Ridge(..));
+        if self.is_kept(a) || (is_ridge(a) && !is_ridge(b)) || !self.mesh.can_collapse(h) {
             return false;
         }
         let target = self.point(b);
@@ -88,27 +94,66 @@ impl Covering<'_> {
         edges.retain(|(length, _)| *length > LONGEST * self.edge);
         edges.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         for (_, h) in edges {
-            if let Some((p, rest)) = self.middle(h) {
-                self.split(h, p, State::Moved(rest));
+            if let Some((p, state)) = self.middle(h)
+                && self.may_split(h, p, &state)
+            {
+                self.split(h, p, state);
             }
         }
     }
 
+    /// Whether the faces at an edge stay as they should be when it is cut at a point: none of their parts turns its back on a
+    /// ball more than they do.
+    pub fn may_split(&self, h: u32, p: Point, state: &State) -> bool {
+        let new = |unit: &Vector| match state {
+            State::Moved(a) => a.normal.dot(unit),
+            State::Ridge(a, b) => a.normal.dot(unit).max(b.normal.dot(unit)),
+            _ => 1.0,
+        };
+        [Some(h), self.mesh.twin(h)].into_iter().flatten().all(|h| {
+            let (a, b, c) = (self.mesh.origin(h), self.mesh.target(h), self.mesh.opposite(h));
+            let before = self.agreement([a, b, c], &area_vector([a, b, c].map(|v| self.point(v))));
+            let part = |u: u32, v: u32, triangle: [Point; 3]| {
+                let unit = area_vector(triangle).try_normalize(0.0);
+                unit.map_or(-1.0, |unit| self.agrees(u, &unit).min(self.agrees(v, &unit)).min(new(&unit)))
+            };
+            let (x, y, z) = (self.point(a), self.point(b), self.point(c));
+            part(a, c, [x, p, z]).min(part(b, c, [p, y, z])) >= before.min(TURNS)
+        })
+    }
+
     /// Where the ball touches that comes to the middle of an edge, if that is well between its ends.
-    fn middle(&self, h: u32) -> Option<(Point, super::contact::Rest)> {
+    fn middle(&self, h: u32) -> Option<(Point, State)> {
         let (a, b) = (self.mesh.origin(h), self.mesh.target(h));
         let (p, q) = (self.point(a), self.point(b));
-        let mut from = *self.rest(a).or(self.rest(b))?;
+        if let (State::Ridge(s, other), State::Ridge(t, _)) = (&self.state[a as usize], &self.state[b as usize])
+            && (s.center - t.center).norm() < self.edge + s.radius
+            && let Some((x, s, t)) = self.ridge(nalgebra::center(&p, &q), s, other)
+            && (x - p).norm().max((x - q).norm()) < HALVES[1] * (q - p).norm()
+        {
+            return Some((x, State::Ridge(s, t)));
+        }
+        let mut from = match self.rest(a).or(self.rest(b)) {
+            Some(rest) => *rest,
+            None if self.is_filled(h) => {
+                let faces = [Some(h), self.mesh.twin(h)].into_iter().flatten();
+                let sum: Vector = faces.map(|x| self.mesh.area_vector(self.mesh.face_of(x))).sum();
+                let (normal, radius) = (sum.try_normalize(0.0)?, self.radius(p));
+                let center = nalgebra::center(&p, &q) + normal * radius;
+                Rest { center, radius, normal, contacts: UNTOUCHED }
+            }
+            None => return None,
+        };
         if let (Some(s), Some(t)) = (self.rest(a), self.rest(b)) {
             from.center = nalgebra::center(&s.center, &t.center);
-            from.contacts = super::contact::UNTOUCHED;
+            from.contacts = UNTOUCHED;
         }
         let x = nalgebra::center(&p, &q);
         let rest = self.ground.rest(x, from.center, self.radius(x), from.contacts)?;
         let found = rest.point();
         let length = (q - p).norm();
         let parts = [(found - p).norm() / length, (found - q).norm() / length];
-        parts.iter().all(|part| (HALVES[0]..HALVES[1]).contains(part)).then_some((found, rest))
+        parts.iter().all(|part| (HALVES[0]..HALVES[1]).contains(part)).then_some((found, State::Moved(rest)))
     }
 
     /// Turns edges where that makes better triangles; whether any did.
@@ -130,16 +175,21 @@ impl Covering<'_> {
     fn may_turn(&self, h: u32) -> bool {
         let Some(t) = self.mesh.twin(h) else { return false };
         let (a, b, c, d) = (self.mesh.origin(h), self.mesh.target(h), self.mesh.opposite(h), self.mesh.opposite(t));
-        if self.is_kept(a) && self.is_kept(b) {
+        if self.is_kept(a) && self.is_kept(b) && !self.is_filled(h) {
             return false;
         }
         let at = |corners: [u32; 3]| corners.map(|v| self.point(v));
+        let is_ridge = |v: u32| matches!(self.state[v as usize], State::Ridge(..));
+        if is_ridge(a) && is_ridge(b) && self.crosses_ridge(c, d) {
+            return false;
+        }
         let (before, after) = ([[a, b, c], [b, a, d]], [[d, c, a], [c, d, b]]);
         let least = |faces: [[u32; 3]; 2], of: &dyn Fn([u32; 3]) -> f64| of(faces[0]).min(of(faces[1]));
         let shape = |f: [u32; 3]| quality(at(f));
         let agreement = |f: [u32; 3]| self.agreement(f, &area_vector(at(f)));
         let (q0, q1) = (least(before, &shape), least(after, &shape));
-        if q1 < 1.05 * q0 + 0.01 {
+        let uncrosses = is_ridge(c) && is_ridge(d) && !is_ridge(a) && !is_ridge(b) && self.crosses_ridge(a, b);
+        if if uncrosses { q1 < 0.02 } else { q1 < 1.05 * q0 + 0.01 } {
             return false;
         }
         let (s0, s1) = (least(before, &agreement), least(after, &agreement));
@@ -152,7 +202,7 @@ impl Covering<'_> {
             let [m, n] = faces.map(|f| area_vector(at(f)));
             m.dot(&n) / (m.norm() * n.norm())
         };
-        if s0 > 0.2 && (bend(before) < flat || bend(after) < flat) {
+        if !uncrosses && s0 > 0.2 && (bend(before) < flat || bend(after) < flat) {
             return false;
         }
         self.mesh.can_flip(h) && !self.dips(at(after[0])) && !self.dips(at(after[1]))
@@ -190,19 +240,26 @@ impl Covering<'_> {
         let (q0, s0) = self.fan(v);
         let towards = middle / weight - x.coords;
         let along = if s0 < 0.2 { towards } else { towards - rest.normal * towards.dot(&rest.normal) };
-        let Some((p, found)) = self.reroll(x + along, &rest) else { return };
+        let before = self.state[v as usize];
+        let (p, found) = if let State::Ridge(a, b) = &before {
+            let Some((p, a, b)) = self.ridge(x + towards, a, b) else { return };
+            (p, State::Ridge(a, b))
+        } else {
+            let Some((p, found)) = self.reroll(x + along, &rest) else { return };
+            (p, State::Moved(found))
+        };
         self.mesh.points[v as usize] = p;
-        self.state[v as usize] = State::Moved(found);
+        self.state[v as usize] = found;
         let (q1, s1) = self.fan(v);
         let is_better = (s0 < 0.2 && s1 > s0) || (s1 >= s0.min(RELAXED) - 0.01 && q1 > q0);
         if !is_better || self.mesh.faces_at(v).any(|f| self.dips(self.mesh.triangle(f))) {
             self.mesh.points[v as usize] = x;
-            self.state[v as usize] = State::Moved(rest);
+            self.state[v as usize] = before;
         }
     }
 
     /// The worst quality and agreement of the faces at a vertex.
-    fn fan(&self, v: u32) -> (f64, f64) {
+    pub fn fan(&self, v: u32) -> (f64, f64) {
         self.mesh.faces_at(v).fold((1.0, 1.0), |(q, s), f| {
             let triangle = self.mesh.triangle(f);
             let agreement = self.agreement(self.mesh.face(f), &area_vector(triangle));

@@ -56,27 +56,31 @@ pub(super) fn result(
     closed
 }
 
-/// The region of each face of the input: touched faces that are neighbours are of one region, any other face is one of its own.
+/// The region of each face of the input: touched faces that are neighbours are of one region, in the input or where gaps were
+/// mended; any other face is one of its own.
 fn regions(covering: &Covering, count: usize) -> Vec<u32> {
-    let mesh = covering.ground.mesh;
-    let mut region = vec![NONE; count];
-    for start in 0..count as u32 {
-        if region[start as usize] != NONE {
-            continue;
+    let mut above: Vec<u32> = (0..count as u32).collect();
+    fn top(above: &mut [u32], mut f: u32) -> u32 {
+        while above[f as usize] != f {
+            above[f as usize] = above[above[f as usize] as usize];
+            f = above[f as usize];
         }
-        region[start as usize] = start;
-        let mut open = vec![start];
-        while let Some(f) = open.pop() {
-            if !covering.touched[f as usize] {
-                continue;
-            }
-            for g in mesh.half_edges(f).into_iter().filter_map(|h| mesh.twin(h)).map(|t| mesh.face_of(t)) {
-                if region[g as usize] == NONE && covering.touched[g as usize] {
-                    region[g as usize] = start;
-                    open.push(g);
+        f
+    }
+    let mut join = |f: u32, g: u32| {
+        let (f, g) = (top(&mut above, f), top(&mut above, g));
+        above[f.max(g) as usize] = f.min(g);
+    };
+    let is_touched = |f: u32| covering.touched.get(f as usize).is_none_or(|touched| *touched);
+    for (mesh, parent) in [(covering.ground.mesh, None), (&covering.mesh, Some(&covering.parent))] {
+        let of = |f: u32| parent.map_or(f, |parent| parent[f as usize]);
+        for f in mesh.faces().filter(|&f| is_touched(f)) {
+            for t in mesh.half_edges(f).into_iter().filter_map(|h| mesh.twin(h)) {
+                if is_touched(mesh.face_of(t)) {
+                    join(of(f), of(mesh.face_of(t)));
                 }
             }
         }
     }
-    region
+    (0..count as u32).map(|f| top(&mut above, f)).collect()
 }

@@ -3,6 +3,7 @@
 
 use super::contact::Rest;
 use super::covering::{Covering, State};
+use super::parallel;
 use crate::mesh::{Point, Vector};
 
 /// A ridge that an edge cuts off by less than this many edge lengths is not worth a vertex.
@@ -100,14 +101,20 @@ impl Covering<'_> {
         }
         edges.retain(|(height, _)| *height > WORTH * self.edge);
         edges.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        for (_, h) in edges {
+        let found = parallel::map(&edges, self.threads, |&(_, h)| {
             let (u, v) = (self.mesh.origin(h), self.mesh.target(h));
-            let Some((height, a, b)) = self.sides(u, v) else { continue };
-            if height <= WORTH * self.edge {
+            let (_, a, b) = self.sides(u, v)?;
+            let found = self.ridge(nalgebra::center(&self.point(u), &self.point(v)), &a, &b)?;
+            Some((u, v, self.point(u), self.point(v), found))
+        });
+        for ((_, h), found) in edges.into_iter().zip(found) {
+            let Some((u, v, p, q, (x, a, b))) = found else { continue };
+            // What came before may have moved its ends, or cut it.
+            let is_same =
+                (self.mesh.origin(h), self.mesh.target(h)) == (u, v) && (self.point(u), self.point(v)) == (p, q);
+            if !is_same || !self.crosses_ridge(u, v) {
                 continue;
             }
-            let (p, q) = (self.point(u), self.point(v));
-            let Some((x, a, b)) = self.ridge(nalgebra::center(&p, &q), &a, &b) else { continue };
             let along = (q - p) / (q - p).norm_squared();
             let t = (x - p).dot(&along);
             let off = (x - p - (q - p) * t).norm();

@@ -52,7 +52,12 @@ pub(super) fn zip(rims: &[Vec<Corner>], reach: f64, edge: f64, is_edge: impl Fn(
 }
 
 /// Joins rims by bridges between the nearest vertices that face each other, until none are left.
-fn join(rims: Vec<Vec<Corner>>, reach: f64, edge: f64, is_edge: &impl Fn(u32, u32) -> bool) -> (Vec<Vec<Corner>>, Vec<(u32, u32)>) {
+fn join(
+    rims: Vec<Vec<Corner>>,
+    reach: f64,
+    edge: f64,
+    is_edge: &impl Fn(u32, u32) -> bool,
+) -> (Vec<Vec<Corner>>, Vec<(u32, u32)>) {
     // Direction from each vertex to what is missing.
     let inward = |rim: &[Corner], k: usize| {
         let (before, after) = (rim[(k + rim.len() - 1) % rim.len()], rim[(k + 1) % rim.len()]);
@@ -131,8 +136,7 @@ fn cut_ears(polygon: &[Corner], is_edge: impl Fn(u32, u32) -> bool) -> (Vec<[u32
     let cost = |p: usize, q: usize, s: usize| {
         let [a, b, c] = [p, q, s].map(|k| polygon[k].point);
         let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default();
-        let agreement =
-            [p, q, s].iter().filter_map(|&k| polygon[k].normal).map(|m| m.dot(&normal)).fold(1.0, f64::min);
+        let agreement = [p, q, s].iter().filter_map(|&k| polygon[k].normal).map(|m| m.dot(&normal)).fold(1.0, f64::min);
         (c - a).norm() * if agreement < ALIKE { TURNED } else { 1.0 }
     };
     let mut ears: BinaryHeap<Reverse<(Length, usize, u32)>> =
@@ -160,7 +164,9 @@ fn cut_ears(polygon: &[Corner], is_edge: impl Fn(u32, u32) -> bool) -> (Vec<[u32
         }
     }
     let mut rest = Vec::new();
-    if left > 2 && let Some(first) = (0..n).find(|&k| version[k] != u32::MAX) {
+    if left > 2
+        && let Some(first) = (0..n).find(|&k| version[k] != u32::MAX)
+    {
         let mut at = first;
         while rest.is_empty() || at != first {
             rest.push(polygon[at].vertex);
@@ -168,4 +174,57 @@ fn cut_ears(polygon: &[Corner], is_edge: impl Fn(u32, u32) -> bool) -> (Vec<[u32
         }
     }
     (triangles, rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ring of corners in the plane z = 0 whose normal is up, the hole on its left where it runs counterclockwise.
+    fn ring(first: u32, radius: f64, n: u32, counterclockwise: bool) -> Vec<Corner> {
+        let corner = |k: u32| {
+            let turn = if counterclockwise { 1.0 } else { -1.0 };
+            let (s, c) = (turn * std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
+            Corner { vertex: first + k, point: Point::new(radius * c, radius * s, 0.0), normal: Some(Vector::z()) }
+        };
+        (0..n).map(corner).collect()
+    }
+
+    fn area(strips: &[Strip], corners: &[Vec<Corner>]) -> f64 {
+        let place = |v: u32| corners.iter().flatten().find(|c| c.vertex == v).unwrap().point;
+        let twice = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(place);
+            (b - a).cross(&(c - a)).z
+        };
+        strips.iter().flat_map(|s| &s.triangles).map(|t| twice(t) / 2.0).sum()
+    }
+
+    #[test]
+    fn rims_side_by_side_are_joined_by_a_strip() {
+        let rims = vec![ring(0, 1.0, 24, true), ring(100, 0.8, 20, false)];
+        let strips = zip(&rims, 0.5, 0.25, |_, _| false);
+        assert_eq!(strips.len(), 1);
+        assert_eq!(strips[0].triangles.len(), 24 + 20);
+        let ring_area = |r: f64, n: f64| 0.5 * n * r * r * (std::f64::consts::TAU / n).sin();
+        let expected = ring_area(1.0, 24.0) - ring_area(0.8, 20.0);
+        assert!((area(&strips, &rims) - expected).abs() < 1e-12, "no triangle lies on another");
+    }
+
+    #[test]
+    fn a_rim_alone_is_filled_with_triangles_between_its_corners() {
+        let rims = vec![ring(0, 1.0, 12, true), ring(100, 0.2, 5, false)];
+        let strips = zip(&rims, 0.5, 0.25, |_, _| false);
+        assert_eq!(strips.len(), 2, "rims farther apart than the reach are not joined");
+        assert_eq!(strips[0].triangles.len(), 10);
+        assert!(strips[0].rest.is_empty());
+    }
+
+    #[test]
+    fn edges_that_there_are_already_are_not_made_again() {
+        // Both diagonals of a square are taken: it is left, for a vertex in its middle.
+        let rims = vec![ring(0, 1.0, 4, true)];
+        let strips = zip(&rims, 0.5, 0.25, |a, b| a % 2 == b % 2);
+        assert!(strips[0].triangles.is_empty());
+        assert_eq!(strips[0].rest.len(), 4);
+    }
 }
