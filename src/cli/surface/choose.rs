@@ -13,6 +13,10 @@ use crate::rolling::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Tr
 /// A face whose middle is farther than so many edge lengths from the exact result is not it.
 pub(super) const OFF: f64 = 1.0;
 
+/// A flow of which more than this part of the faces that moved is not the exact result is no result: what direct leaves
+/// unmoved is better than what is rough.
+const MOST_OFF: f64 = 0.05;
+
 /// Which method was used, and why.
 #[derive(Clone, Debug, serde::Serialize)]
 pub(super) struct Choice {
@@ -67,10 +71,12 @@ pub(super) fn close(
         )
     };
     let flow_crossings = new_crossings(mesh, &flown);
-    let is_better =
-        (flow_crossings, by_flow.off_area, by_flow.largest) < (crossings, by_direct.off_area, by_direct.largest);
+    let moved = flown.parents.iter().filter(|parent| **parent == NONE).count();
+    let is_rough = by_flow.off.len() as f64 > MOST_OFF * moved as f64;
+    let is_better = !is_rough
+        && (flow_crossings, by_flow.off_area, by_flow.largest) < (crossings, by_direct.off_area, by_direct.largest);
     let (direct_says, flow_says) = (says(&by_direct, crossings), says(&by_flow, flow_crossings));
-    if crossings.min(flow_crossings) > 0 {
+    if crossings > 0 && (is_rough || flow_crossings > 0) {
         let because = format!("direct leaves {direct_says}, the flow {flow_says}: nothing was moved");
         return Ok(chosen(unmoved(mesh, direct.conflicts, &by_direct), MethodArg::Direct, because));
     }
