@@ -73,10 +73,11 @@ pub(super) fn close(
     let flow_crossings = new_crossings(mesh, &flown);
     let moved = flown.parents.iter().filter(|parent| **parent == NONE).count();
     let is_rough = by_flow.off.len() as f64 > MOST_OFF * moved as f64;
-    let is_better = !is_rough
-        && (flow_crossings, by_flow.off_area, by_flow.largest) < (crossings, by_direct.off_area, by_direct.largest);
+    // What direct left unmoved lies on the input, whose faces may be too large to tell in their middles what is undone.
+    let is_better =
+        !is_rough && flow_crossings == 0 && (by_flow.off.is_empty() || by_flow.off_area < by_direct.off_area);
     let (direct_says, flow_says) = (says(&by_direct, crossings), says(&by_flow, flow_crossings));
-    if crossings > 0 && (is_rough || flow_crossings > 0) {
+    if crossings > 0 && !is_better {
         let because = format!("direct leaves {direct_says}, the flow {flow_says}: nothing was moved");
         return Ok(chosen(unmoved(mesh, direct.conflicts, &by_direct), MethodArg::Direct, because));
     }

@@ -20,13 +20,14 @@ const FREEINGS: usize = 2;
 impl SurfaceFront<'_> {
     /// The direction in which vertex `v` moves: of unit length, outward of all its faces if there is such a one.
     pub(super) fn normal(&self, v: u32) -> Vector {
-        let faces: Vec<Vector> =
-            self.mesh.faces_at(v).filter_map(|f| self.mesh.area_vector(f).try_normalize(0.0)).collect();
         let center = self.point(v);
-        let mut normal = Vector::zeros();
-        for (h, n) in self.mesh.spokes(v).zip(&faces) {
+        let (mut faces, mut normal) = (Vec::new(), Vector::zeros());
+        for h in self.mesh.spokes(v) {
+            // Faces without area have no direction.
+            let Some(n) = self.mesh.area_vector(self.mesh.face_of(h)).try_normalize(0.0) else { continue };
             let (a, b) = (self.point(self.mesh.target(h)) - center, self.point(self.mesh.opposite(h)) - center);
             normal += n * a.cross(&b).norm().atan2(a.dot(&b));
+            faces.push(n);
         }
         // Towards the worst one, a few times: smaller and smaller steps.
         for k in 1..=8 {

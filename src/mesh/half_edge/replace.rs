@@ -1,6 +1,6 @@
 //! Many faces in the place of many others, where the surface is cut and joined in another way.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::{HalfEdgeMesh, NONE, NotManifold};
 
@@ -19,7 +19,7 @@ impl HalfEdgeMesh {
         around.sort_unstable();
         around.dedup();
         // The links of all vertices that are concerned: from corner to corner in the faces that they will have.
-        let mut links: HashMap<(u32, u32), u32> = HashMap::new();
+        let mut links: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         for (f, &[a, b, c]) in (0u32..).zip(new) {
             if a == b || b == c || c == a {
                 return Err(NotManifold::Face(self.face_count() as u32 + f));
@@ -37,8 +37,8 @@ impl HalfEdgeMesh {
                 }
             }
         }
-        let mut degree: HashMap<u32, usize> = HashMap::new();
-        let mut ends: HashMap<u32, Vec<u32>> = HashMap::new();
+        let mut degree: BTreeMap<u32, usize> = BTreeMap::new();
+        let mut ends: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for &(v, x) in links.keys() {
             *degree.entry(v).or_default() += 1;
             ends.entry(v).or_default().push(x);
@@ -74,7 +74,7 @@ impl HalfEdgeMesh {
             beside.extend([first, first + 1, first + 2]);
         }
         // Each edge between two of those vertices has both of its half-edges here, as each leaves one of them.
-        let open: HashMap<(u32, u32), u32> = beside
+        let open: BTreeMap<(u32, u32), u32> = beside
             .iter()
             .filter(|&&h| self.twin[h as usize] == NONE)
             .map(|&h| ((self.origin(h), self.target(h)), h))
