@@ -24,7 +24,7 @@ mod track;
 mod trim;
 mod unite;
 
-pub use ball::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Touch, Trouble, close_surface};
+pub use ball::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Touch, Trouble, close_surface, land_surface};
 
 use std::f64::consts::PI;
 

@@ -8,7 +8,7 @@ use super::flow::{self, PIN_EASE};
 use super::pins::Field;
 use crate::flow::{FlownSurface, Obstacle, OnContact, SurfaceFlow, SurfaceSettings};
 use crate::mesh::{Hierarchy, NONE, TriangleMesh, self_intersections, self_intersections_of};
-use crate::rolling::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Trouble, close_surface};
+use crate::rolling::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Trouble, close_surface, land_surface};
 
 /// A face whose middle is farther than so many edge lengths from the exact result is not it.
 pub(super) const OFF: f64 = 1.0;
@@ -97,7 +97,11 @@ fn flow_to_the_ball(mesh: &TriangleMesh, field: &Field, edge: f64) -> Result<Clo
     let mut flowing = SurfaceFlow::new(mesh, Obstacle::CLOSING, space, &settings).context("the flow")?;
     flowing.run(f64::INFINITY);
     let FlownSurface { points, origins, faces, parents } = flowing.result();
-    Ok(ClosedSurface { points, origins, faces, parents, ..ClosedSurface::default() })
+    let flown = ClosedSurface { points, origins, faces, parents, ..ClosedSurface::default() };
+    // Near pins the flow has its own radius.
+    let pin_distance = |p| PIN_EASE * (field.pin_distance)(p);
+    let options = SurfaceOptions { radius: &*field.radius, pin_distance: &pin_distance, edge, threads: threads() };
+    Ok(land_surface(mesh, &flown, &options)?)
 }
 
 /// How many pairs of faces pass through each other that did not before.

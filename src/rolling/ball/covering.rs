@@ -19,6 +19,7 @@ pub(super) enum State {
 }
 
 /// A surface with a state for each vertex. What never moves is never touched.
+#[derive(Clone)]
 pub(super) struct Covering<'a> {
     pub ground: &'a Ground<'a>,
     pub mesh: HalfEdgeMesh,

@@ -10,6 +10,7 @@ mod conflicts;
 mod contact;
 mod covering;
 mod half_spaces;
+mod land;
 mod mend;
 mod parallel;
 mod remesh;
@@ -22,6 +23,7 @@ mod zip;
 pub use conflicts::{Conflict, Trouble};
 use contact::Ground;
 use covering::{Covering, State};
+pub use land::land_surface;
 use roll::{Roll, stretches};
 pub use roller::{Roller, Survey, Touch};
 

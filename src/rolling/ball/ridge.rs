@@ -18,11 +18,20 @@ const APART: f64 = 0.999;
 /// A point of a ridge has settled where it moves by less than so many edge lengths.
 const SETTLED: f64 = 1e-4;
 
+/// A ridge is not looked for farther away than so many edge lengths.
+const REACH: f64 = 2.0;
+
+/// It is none where it is farther than this from where either ball touches.
+const MISSED: f64 = 1e-3;
+
 /// Steps to settle.
 const STEPS: usize = 20;
 
 /// Vertices that are this near to a ridge, in edge lengths, go there themselves.
 const NEAR: f64 = 0.45;
+
+/// Where no vertex can be put on an edge, an end that is this near goes to the ridge.
+const FAR: f64 = 1.2;
 
 /// No vertex is put this near to another, in edge lengths.
 const CROWDED: f64 = 0.15;
@@ -30,6 +39,10 @@ const CROWDED: f64 = 0.15;
 /// What a vertex does to its faces by going to a ridge: they keep this part of their quality, or this quality.
 const QUALITY_KEPT: f64 = 0.6;
 const GOOD: f64 = 0.35;
+
+/// They agree with their balls as they did but for rounding, or this well.
+const AGREES: f64 = 0.5;
+const ROUNDING: f64 = 0.01;
 
 impl Covering<'_> {
     /// The point of the ridge between two balls that is nearest to `x`, with the balls as they rest there. `None` where
@@ -50,7 +63,7 @@ impl Covering<'_> {
             let next = middle + out * (r * r - 0.25 * distance * distance).sqrt();
             let motion = (next - p).norm();
             p = next;
-            if (p - x).norm() > 2.0 * self.edge {
+            if (p - x).norm() > REACH * self.edge {
                 return None;
             }
             let r = self.radius(p);
@@ -58,7 +71,7 @@ impl Covering<'_> {
             b = self.ground.rest(p, b.center, r, b.contacts)?;
             if motion < SETTLED * self.edge {
                 let off = |rest: &Rest| ((rest.center - p).norm() - rest.radius).abs();
-                if off(&a).max(off(&b)) > 10.0 * SETTLED * self.edge || (a.center - b.center).norm() < ONE * r {
+                if off(&a).max(off(&b)) > MISSED * self.edge || (a.center - b.center).norm() < ONE * r {
                     return None;
                 }
                 (a.normal, b.normal) = ((a.center - p) / r, (b.center - p) / r);
@@ -129,6 +142,8 @@ impl Covering<'_> {
             }
             if distance > CROWDED * self.edge && self.may_split(h, x, &state) {
                 self.split(h, x, state);
+            } else if !on_ridge && distance < FAR * self.edge {
+                self.go_to(near, x, state);
             }
         }
     }
@@ -140,7 +155,7 @@ impl Covering<'_> {
         self.mesh.points[v as usize] = x;
         self.state[v as usize] = state;
         let (q1, s1) = self.fan(v);
-        let stays_good = q1 >= (QUALITY_KEPT * q0).min(GOOD) && s1 >= s0.min(0.5) - 0.01;
+        let stays_good = q1 >= (QUALITY_KEPT * q0).min(GOOD) && s1 >= s0.min(AGREES) - ROUNDING;
         if stays_good && !self.mesh.faces_at(v).any(|f| self.dips(self.mesh.triangle(f))) {
             return true;
         }
