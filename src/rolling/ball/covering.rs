@@ -119,6 +119,20 @@ impl Covering<'_> {
         w
     }
 
+    /// Puts a vertex of the input into a face of it.
+    pub fn put_in_face(&mut self, f: u32, [a, b, c]: [u32; 3], p: Point) -> Option<u32> {
+        let parent = self.parent[f as usize];
+        let w = self.mesh.add_vertex(p);
+        self.state.push(State::Kept);
+        self.mesh.replace(&[f], &[[a, b, w], [b, c, w], [c, a, w]]).ok()?;
+        self.touch(f);
+        self.parent.extend([parent; 3]);
+        for g in self.parent.len() - 3..self.parent.len() {
+            self.touch(g as u32);
+        }
+        Some(w)
+    }
+
     /// Of the unit normal of a triangle and those of the balls that touch its moved corners the smallest cosine.
     pub fn agreement(&self, corners: [u32; 3], normal: &Vector) -> f64 {
         let Some(unit) = normal.try_normalize(0.0) else { return -1.0 };

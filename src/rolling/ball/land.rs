@@ -5,14 +5,11 @@ use std::collections::BTreeSet;
 use super::conflicts::{self, Trouble};
 use super::contact::Ground;
 use super::covering::{Covering, State};
-use super::{ClosedSurface, EASE, SurfaceOptions, parallel};
+use super::{BESIDE, ClosedSurface, EASE, SurfaceOptions, parallel};
 use crate::mesh::{HalfEdgeMesh, Hierarchy, NONE, NotManifold, Point, TriangleMesh, Vector};
 
 /// A vertex lands where the ball touches if that is no farther than so many edge lengths.
 const NEAR: f64 = 2.0;
-
-/// Whether the ball lies on the other side of the surface is asked from this part of its radius on.
-const BESIDE: f64 = 1e-6;
 
 /// Rounds of remeshing on the closing.
 const ROUNDS: usize = 5;

@@ -19,6 +19,9 @@ const JUMP: f64 = 1.9;
 /// What is longer than this many edge lengths after remeshing could not be split, and may be torn.
 const STRETCHED: f64 = 2.0;
 
+/// Rims are joined over so many edge lengths at least, however small the ball.
+const NARROW: f64 = 3.0;
+
 impl Covering<'_> {
     /// Cuts out the faces that are not the closing, and fills what is left open. Whether anything was done.
     ///
@@ -59,7 +62,8 @@ impl Covering<'_> {
             };
             has(a, b) || has(b, a)
         };
-        let reach = self.radius(corners.first().map_or(Point::origin(), |rim| rim[0].point)).max(3.0 * self.edge);
+        let radii = corners.iter().flatten().map(|c| self.radius(c.point));
+        let reach = radii.fold(NARROW * self.edge, f64::max);
         let strips = zip(&corners, reach, self.edge, is_edge);
         let mut mended = false;
         for (faces, polygons) in self.gaps(&gone, &strips) {

@@ -10,11 +10,13 @@ mod conflicts;
 mod contact;
 mod covering;
 mod half_spaces;
+mod hidden;
 mod land;
 mod mend;
 mod parallel;
 mod remesh;
 mod result;
+mod reveal;
 mod ridge;
 mod roll;
 mod roller;
@@ -48,6 +50,12 @@ const MENDINGS: usize = 3;
 
 /// The radius grows by this much for every unit of distance from what is pinned.
 const EASE: f64 = 1.0;
+
+/// Balls that are nearer to the input than their radius by less than this part of it touch it.
+const TOUCHING: f64 = 1e-8;
+
+/// Whether a ball lies on the other side of the surface is asked from this part of the way to its centre on.
+const BESIDE: f64 = 1e-6;
 
 /// How a surface is closed.
 pub struct SurfaceOptions<'a> {
@@ -115,10 +123,10 @@ fn cover<'a>(
         edge: options.edge,
         threads: options.threads,
     };
-    let mut roll = Roll { normals: input.vertex_normals(), threads: options.threads };
+    let mut roll = Roll { normals: input.vertex_normals() };
     // What the whole ball can touch, smaller ones can.
     let mut moving: Vec<u32> = roll.untouched(&covering, (0..input.points.len() as u32).collect());
-    roll.cut_edges_between(&mut covering, &mut moving);
+    roll.reveal(&mut covering, &mut moving);
     let radii = input.points.iter().map(|p| field(*p)).fold(0.0, f64::max) / options.edge;
     let mut part = (FIRST_RADIUS / radii).min(1.0);
     let mut done = 0.0;

@@ -2,23 +2,20 @@
 
 use super::contact;
 use super::covering::{Covering, State};
-use super::{parallel, remesh};
+use super::hidden::DEAD_BAND;
+use super::parallel;
+use super::{BESIDE, TOUCHING};
 use crate::mesh::{Point, Vector};
 
 /// An edge that gets longer than so many times its length, or so many edge lengths, is stretched: what lies between its ends
 /// may be lost.
 const STRETCHED: f64 = 2.5;
 
-/// Balls that are nearer to the input than their radius by less than this part of it touch it.
-const TOUCHING: f64 = 1e-8;
-
 /// Coarse faces near what moves are cut so often at most.
 const CUTS: usize = 8;
 
-/// A vertex that would move by less than this many sagittas of its edges stays, and by less than so many edge lengths: the
-/// samples of a surface that the ball fits are on it, not their chords.
+/// A vertex that would move by less than this many sagittas of its edges, or within [`DEAD_BAND`], stays.
 const SAGITTAS: f64 = 2.0;
-const DEAD_BAND: f64 = 0.05;
 
 /// Whether some edge would be stretched so that what lies between may be lost.
 pub(super) fn stretches(covering: &Covering, targets: &[Option<Target>]) -> bool {
@@ -38,7 +35,6 @@ pub(super) fn stretches(covering: &Covering, targets: &[Option<Target>]) -> bool
 pub(super) struct Roll {
     /// Directions in which to look for a ball first.
     pub normals: Vec<Vector>,
-    pub threads: usize,
 }
 
 /// Where a vertex is to go.
@@ -52,7 +48,7 @@ pub(super) enum Target {
 impl Roll {
     /// The vertices of `among` that the ball does not touch along their normals.
     pub fn untouched(&self, covering: &Covering, among: Vec<u32>) -> Vec<u32> {
-        let is_untouched = parallel::map(&among, self.threads, |&v| {
+        let is_untouched = parallel::map(&among, covering.threads, |&v| {
             let (x, normal) = (covering.point(v), self.normals[v as usize]);
             let r = covering.radius(x);
             !covering.mesh.is_boundary(v)
@@ -60,37 +56,6 @@ impl Roll {
                 && covering.ground.hierarchy.is_nearer(x + normal * r, r * (1.0 - TOUCHING))
         });
         among.into_iter().zip(is_untouched).filter(|(_, is)| *is).map(|(v, _)| v).collect()
-    }
-
-    /// Cuts long edges whose middles the ball does not touch, though it touches both ends: a concave edge of a coarse mesh
-    /// begins and ends in vertices that stay.
-    pub fn cut_edges_between(&mut self, covering: &mut Covering, moving: &mut Vec<u32>) {
-        let mut moves = vec![false; covering.state.len()];
-        let targets = parallel::map(moving, self.threads, |&v| self.target(covering, v));
-        for (&v, target) in moving.iter().zip(&targets) {
-            moves[v as usize] = !matches!(target, Target::Stays);
-        }
-        let mesh = &covering.mesh;
-        let edges: Vec<u32> = (0..3 * mesh.face_count() as u32)
-            .filter(|&h| mesh.is_edge(h) && !moves[mesh.origin(h) as usize] && !moves[mesh.target(h) as usize])
-            .filter(|&h| mesh.length(h) > remesh::LONGEST * covering.edge)
-            .collect();
-        let hidden = parallel::map(&edges, self.threads, |&h| {
-            let unit = |x: u32| mesh.area_vector(mesh.face_of(x)).try_normalize(0.0).unwrap_or_default();
-            let normal = (unit(h) + unit(mesh.twin(h)?)).try_normalize(0.0)?;
-            let middle = nalgebra::center(&covering.point(mesh.origin(h)), &covering.point(mesh.target(h)));
-            let r = covering.radius(middle);
-            let reach = r - DEAD_BAND * covering.edge;
-            let is_hidden = reach > 0.0 && covering.ground.hierarchy.is_nearer(middle + normal * r, reach);
-            is_hidden.then_some((middle, normal))
-        });
-        for (h, found) in edges.into_iter().zip(hidden) {
-            let Some((middle, normal)) = found else { continue };
-            let w = covering.split(h, middle, State::Kept);
-            self.normals.resize(covering.state.len(), Vector::zeros());
-            self.normals[w as usize] = normal;
-            moving.push(w);
-        }
     }
 
     /// Where the vertices go with a ball of the covering's radius.
@@ -102,7 +67,7 @@ impl Roll {
             .collect();
         open.sort_unstable();
         for cut in 0..=CUTS {
-            let found = parallel::map(&open, self.threads, |&v| self.target(covering, v));
+            let found = parallel::map(&open, covering.threads, |&v| self.target(covering, v));
             for (&v, target) in open.iter().zip(found) {
                 targets[v as usize] = Some(target);
             }
@@ -180,7 +145,7 @@ impl Roll {
             }
         }
         // The ball must lie on this side of the surface.
-        let start = x + (rest.center - x) * 1e-6;
+        let start = x + (rest.center - x) * BESIDE;
         if covering.ground.hierarchy.is_crossed(start, rest.center) {
             return Target::Lost;
         }
@@ -194,38 +159,11 @@ impl Roll {
         targets: &mut Vec<Option<Target>>,
         moving: &mut Vec<u32>,
     ) -> Vec<u32> {
-        let goes = |targets: &[Option<Target>], v: u32| {
-            matches!(targets.get(v as usize), Some(Some(Target::Goes(..) | Target::Lost)))
-        };
-        let mut edges: Vec<u32> = (0..covering.state.len() as u32)
-            .filter(|&v| goes(targets, v))
-            .flat_map(|v| covering.mesh.faces_at(v).collect::<Vec<_>>())
-            .flat_map(|f| covering.mesh.half_edges(f))
-            .map(|h| covering.mesh.twin(h).map_or(h, |t| h.min(t)))
-            .collect();
-        edges.sort_unstable();
-        edges.dedup();
-        let on_input = |covering: &Covering, v: u32| covering.is_kept(v);
-        let mut long: Vec<(f64, u32)> = edges
-            .into_iter()
-            .filter(|&h| on_input(covering, covering.mesh.origin(h)) && on_input(covering, covering.mesh.target(h)))
-            .map(|h| (covering.mesh.length(h), h))
-            .filter(|(length, _)| *length > remesh::LONGEST * covering.edge)
-            .collect();
-        long.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let mut new = Vec::new();
-        for (_, h) in long {
-            let mesh = &covering.mesh;
-            let middle = nalgebra::center(&covering.point(mesh.origin(h)), &covering.point(mesh.target(h)));
-            let faces = [Some(h), mesh.twin(h)].into_iter().flatten().map(|x| mesh.area_vector(mesh.face_of(x)));
-            let normal: Vector = faces.filter_map(|n| n.try_normalize(0.0)).sum();
-            let w = covering.split(h, middle, State::Kept);
-            self.normals.resize(covering.state.len(), Vector::zeros());
-            self.normals[w as usize] = normal.try_normalize(0.0).unwrap_or_default();
-            targets.push(None);
-            moving.push(w);
-            new.push(w);
-        }
+        let goes = |v: u32| matches!(targets.get(v as usize), Some(Some(Target::Goes(..) | Target::Lost)));
+        let all: Vec<u32> = (0..covering.state.len() as u32).filter(|&v| goes(v)).collect();
+        let new = self.cut_long(covering, &all, |_| true);
+        targets.resize(covering.state.len(), None);
+        moving.extend(&new);
         new
     }
 
@@ -234,7 +172,7 @@ impl Roll {
         loop {
             let lost: Vec<u32> =
                 (0..covering.state.len() as u32).filter(|&v| covering.state[v as usize] == State::Lost).collect();
-            let found = parallel::map(&lost, self.threads, |&v| {
+            let found = parallel::map(&lost, covering.threads, |&v| {
                 let rests: Vec<(Vector, Vector)> = covering
                     .mesh
                     .neighbours(v)

@@ -1,14 +1,8 @@
 //! The ball by itself: where it comes to rest at a point, for whoever moves the points.
 
 use super::contact::{Ground, UNTOUCHED};
-use super::parallel;
+use super::{BESIDE, TOUCHING, parallel};
 use crate::mesh::{HalfEdgeMesh, Hierarchy, NotManifold, Point, TriangleMesh, Vector};
-
-/// Balls that are nearer to the surface than their radius by less than this part of it touch it.
-const TOUCHING: f64 = 1e-8;
-
-/// Whether the ball lies on the other side of the surface is asked from this part of the way to its centre on.
-const BESIDE: f64 = 1e-6;
 
 /// A surface that a ball rolls on from outside.
 #[derive(Clone, Debug)]
@@ -72,7 +66,6 @@ pub struct Survey {
 impl Roller {
     /// Asks at the middle of every face how far it is from the closing by a ball of the radius at the place, where that is above
     /// zero. What is not farther than `allowed` is not told.
-    ///
     pub fn survey(
         &self,
         surface: &TriangleMesh,

@@ -1,12 +1,15 @@
 //! Rims on one sheet filled with triangles, from where they are nearest.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use crate::mesh::{Point, Vector};
 
 /// Rims face each other where their normals agree by this cosine.
 const ALIKE: f64 = 0.3;
+
+/// The way from a rim to one that it faces leaves it at an angle whose sine is at least this.
+const FACING: f64 = 0.3;
 
 /// Rims that overlap by less than this many edge lengths face each other, too.
 const OVERLAP: f64 = 0.7;
@@ -64,47 +67,56 @@ fn join(
         let n = rim[k].normal?;
         n.cross(&(after.point - before.point)).try_normalize(0.0)
     };
-    let mut all: Vec<(usize, usize, Corner, Vector)> = Vec::new();
+    let mut all: Vec<(usize, Corner, Vector)> = Vec::new();
     for (i, rim) in rims.iter().enumerate() {
         for (k, c) in rim.iter().enumerate() {
             if let Some(d) = inward(rim, k) {
-                all.push((i, k, *c, d));
+                all.push((i, *c, d));
             }
         }
     }
-    all.sort_by(|a, b| a.2.point.x.total_cmp(&b.2.point.x).then(a.2.vertex.cmp(&b.2.vertex)));
-    let mut pairs: Vec<(f64, u32, u32)> = Vec::new();
-    for (k, (i, _, a, d)) in all.iter().enumerate() {
-        for (j, _, b, e) in all[k + 1..].iter().take_while(|other| other.2.point.x - a.point.x <= reach) {
+    // By cells as large as the reach, each corner meets those of its own and the neighbouring ones.
+    let cell = |p: &Point| [p.x, p.y, p.z].map(|x| (x / reach).floor() as i64);
+    let mut cells: BTreeMap<[i64; 3], Vec<usize>> = BTreeMap::new();
+    for (k, (_, c, _)) in all.iter().enumerate() {
+        cells.entry(cell(&c.point)).or_default().push(k);
+    }
+    let mut pairs: Vec<(f64, [u32; 2], [usize; 2])> = Vec::new();
+    for (k, (i, a, d)) in all.iter().enumerate() {
+        let [x, y, z] = cell(&a.point);
+        let near = (0..27).filter_map(|n| cells.get(&[x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1]));
+        for (j, b, e) in near.flatten().filter(|&&l| l > k).map(|&l| &all[l]) {
             let along = b.point - a.point;
             let length = along.norm();
             let (Some(m), Some(n)) = (a.normal, b.normal) else { continue };
-            let facing = |d: &Vector, along: Vector| d.dot(&along) > 0.3 * length || length < OVERLAP * edge;
+            let facing = |d: &Vector, along: Vector| d.dot(&along) > FACING * length || length < OVERLAP * edge;
             if i != j && length <= reach && m.dot(&n) > ALIKE && facing(d, along) && facing(e, -along) {
-                pairs.push((length, a.vertex, b.vertex));
+                pairs.push((length, [a.vertex, b.vertex], [*i, *j]));
             }
         }
     }
-    pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then((p.1, p.2).cmp(&(q.1, q.2))));
-    let mut polygons = rims;
+    pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+    // The polygon that each rim is a part of by now.
+    let mut part_of: Vec<usize> = (0..rims.len()).collect();
+    let mut polygons: Vec<Option<Vec<Corner>>> = rims.into_iter().map(Some).collect();
     let mut bridges = Vec::new();
-    for (_, u, v) in pairs {
-        let find = |x: u32| {
-            polygons.iter().enumerate().find_map(|(p, rim)| Some((p, rim.iter().position(|c| c.vertex == x)?)))
-        };
-        let (Some((p, at)), Some((q, from))) = (find(u), find(v)) else { continue };
+    for (_, [u, v], [i, j]) in pairs {
+        let (p, q) = (part_of[i].min(part_of[j]), part_of[i].max(part_of[j]));
         if p == q || is_edge(u, v) {
             continue;
         }
-        let (one, other) = (&polygons[p], &polygons[q]);
+        let (Some(one), Some(other)) = (&polygons[p], &polygons[q]) else { continue };
+        let at = |polygon: &[Corner]| polygon.iter().position(|c| c.vertex == u || c.vertex == v);
+        let (Some(at), Some(from)) = (at(one), at(other)) else { continue };
         let mut joined: Vec<Corner> = one[..=at].to_vec();
         joined.extend(other[from..].iter().chain(&other[..=from]));
         joined.extend(&one[at..]);
-        polygons[p.min(q)] = joined;
-        polygons.remove(p.max(q));
+        polygons[p] = Some(joined);
+        polygons[q] = None;
+        part_of.iter_mut().filter(|part| **part == q).for_each(|part| *part = p);
         bridges.push((u.min(v), u.max(v)));
     }
-    (polygons, bridges)
+    (polygons.into_iter().flatten().collect(), bridges)
 }
 
 /// A length to sort by.
