@@ -186,9 +186,19 @@ impl WorkArgs {
         if self.format == FormatArg::Json && target == Path::new("-") {
             bail!("--format json prints the report on standard output, where the mesh would go: add -o OUT.obj");
         }
-        output::keep_input(&self.input, &target)?;
-        for target in [Some(&target), self.preview.as_ref()].into_iter().flatten() {
+        let names: Vec<PathBuf> = match self.flow.frames {
+            Some(n) if n > 1 && target == Path::new("-") => bail!("{n} frames need a name: add -o OUT.obj"),
+            Some(n @ 2..=flow::MOST_FRAMES) => (1..=n as usize).map(|k| numbered(&target, k, n as usize)).collect(),
+            _ => vec![target.clone()],
+        };
+        let targets: Vec<&Path> = names.iter().chain(&self.preview).map(PathBuf::as_path).collect();
+        output::keep_apart(&targets)?;
+        for target in targets {
+            output::keep_input(&self.input, target)?;
             output::keep_folder(target)?;
+        }
+        if let Some(preview) = &self.preview {
+            output::keep_png(preview)?;
         }
         let format = work::format_of(&target)?;
         let input = work::Input::read(&self.input, self.repair)?;
@@ -196,19 +206,11 @@ impl WorkArgs {
         // There is one at least: each run has a last state.
         let Some(done) = states.last() else { bail!("nothing came out") };
         let picture = self.preview.as_ref().map(|_| done.picture(&input)).transpose()?;
-        let names: Vec<PathBuf> = match states.len() {
-            1 => vec![target.clone()],
-            n if target == Path::new("-") => bail!("{n} frames need a name: add -o OUT.obj"),
-            n => (1..=n).map(|k| numbered(&target, k, n)).collect(),
-        };
-        for name in &names {
-            output::keep_input(&self.input, name)?;
-        }
         let bytes: Vec<Vec<u8>> = states.iter().map(|state| state.write(&input, format)).collect();
+        let files = names.iter().zip(&bytes).zip(&states).filter(|(_, state)| !state.faces.is_empty());
         let mut files: Vec<(&Path, &[u8])> =
-            names.iter().zip(&bytes).map(|(name, bytes)| (name.as_path(), bytes.as_slice())).collect();
+            files.map(|((name, bytes), _)| (name.as_path(), bytes.as_slice())).collect();
         if let (Some(path), Some(picture)) = (&self.preview, &picture) {
-            output::keep_input(&self.input, path)?;
             files.push((path, picture));
         }
         output::write_together(&files)?;

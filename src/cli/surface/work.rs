@@ -130,6 +130,9 @@ pub(super) struct Done {
 
 /// Does the steps, one after the other; the states on the way of a flow that was asked for them, and the last one.
 pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Vec<Done>> {
+    if let Some(option) = args.flow.first_given().filter(|_| args.method != MethodArg::Flow) {
+        bail!("{option} means something to a flow only: add --method flow");
+    }
     let diagonal = input.triangles.diagonal();
     let radius = args.radius.on(diagonal);
     let mut field = args.field.resolve(input, radius)?;
@@ -188,9 +191,6 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
         let states = super::flow::run(args, input, steps, &field, radius, edge, &bar);
         bar.finish_and_clear();
         return states;
-    }
-    if args.flow.time.is_some() {
-        bail!("--time: only a flow has states in time: add --method flow");
     }
     for step in steps {
         bar.set_message(match step {
