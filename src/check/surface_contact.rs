@@ -36,6 +36,9 @@ pub(super) const RESOLUTION: f64 = 4e-3;
 /// Boxes of one search from below, at most.
 const MOST_BOXES: usize = 4_000;
 
+/// So many points of the solid are remembered during one search from below.
+const MOST_KNOWN: usize = 24;
+
 /// The search goes no farther than this, in radii.
 const FARTHEST: f64 = 4.0;
 
@@ -135,19 +138,31 @@ impl<'a> Centres<'a> {
     }
 
     /// Whether the middle of a box is a free centre; nothing where no place of the box that is nearer to `x` than `within` can be
-    /// one, because it is in the ball around the point of the solid nearest to the middle.
-    fn look_into(&self, x: Point, within: f64, cell: &Cell) -> Option<Free> {
+    /// one, because it is in the ball around a point of the solid: one of those that are `known`, or the one nearest to the
+    /// middle, which is then known as well.
+    fn look_into(&self, x: Point, within: f64, cell: &Cell, known: &mut Vec<Point>) -> Option<Free> {
         let (r, center, half) = (self.radius, cell.center, cell.half);
-        let reach = half * 3f64.sqrt();
-        let Some(near) = self.solid.signed(center, r + reach) else { return Some(Free::Yes) };
-        let p = near.nearest;
         let limit = (r * (1.0 - TOUCH)).powi(2);
-        let farthest2: f64 = (0..3).map(|k| ((center[k] - p[k]).abs() + half).powi(2)).sum();
-        // |z - p|² = |z - x|² + 2 (z - x)·(x - p) + |x - p|²: the first is bounded by the ball, the second by the box.
-        let from = x - p;
-        let along = (center - x).dot(&from) + half * from.abs().sum();
-        let in_lens2 = within * within + 2.0 * along + from.norm_squared();
-        if farthest2.min(in_lens2) < limit || near.distance < -reach {
+        let is_in_ball = |p: &Point| {
+            let farthest2: f64 = (0..3).map(|k| ((center[k] - p[k]).abs() + half).powi(2)).sum();
+            // |z - p|² = |z - x|² + 2 (z - x)·(x - p) + |x - p|²: the first is bounded by the ball, the second by the box.
+            let from = x - p;
+            let along = (center - x).dot(&from) + half * from.abs().sum();
+            let in_lens2 = within * within + 2.0 * along + from.norm_squared();
+            farthest2.min(in_lens2) < limit
+        };
+        if let Some(k) = known.iter().position(is_in_ball) {
+            // What holds one box holds its neighbours, which come next.
+            known[..=k].rotate_right(1);
+            return None;
+        }
+        let reach = half * 3f64.sqrt();
+        // The solid is no farther than any point of it.
+        let no_farther = known.iter().map(|p| (center - p).norm()).fold(r + reach, f64::min) * (1.0 + TOUCH);
+        let Some(near) = self.solid.signed(center, no_farther) else { return Some(Free::Yes) };
+        known.truncate(MOST_KNOWN - 1);
+        known.insert(0, near.nearest);
+        if is_in_ball(&near.nearest) || near.distance < -reach {
             return None;
         }
         Some(if near.distance >= r { Free::Yes } else { Free::No })
@@ -161,6 +176,7 @@ impl<'a> Centres<'a> {
         let mut boxes = BinaryHeap::new();
         boxes.push(Cell { distance: 0.0, center: x, half: found });
         let mut looked = 0;
+        let mut known = Vec::with_capacity(MOST_KNOWN);
         let mut below = found;
         while let Some(cell) = boxes.pop() {
             if cell.distance >= found - gain || looked >= MOST_BOXES {
@@ -168,7 +184,7 @@ impl<'a> Centres<'a> {
                 break;
             }
             looked += 1;
-            let Some(free) = self.look_into(x, found - gain, &cell) else { continue };
+            let Some(free) = self.look_into(x, found - gain, &cell, &mut known) else { continue };
             let center_distance = (cell.center - x).norm();
             if free == Free::Yes && center_distance < found {
                 found = center_distance;

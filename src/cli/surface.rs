@@ -6,6 +6,7 @@ mod cut;
 mod flow;
 mod offset;
 mod pins;
+mod repairs;
 mod report;
 mod work;
 
@@ -17,7 +18,6 @@ use clap::{Args, Subcommand, ValueEnum};
 use super::check::FormatArg;
 use super::{ExitStatus, output};
 use pins::FieldArgs;
-pub(super) use work::read_polygons;
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
@@ -52,7 +52,7 @@ struct WorkArgs {
     #[arg(short, long, value_name = "RADIUS", allow_hyphen_values = true)]
     radius: MeshLength,
     /// Where the result goes: OBJ, STL or PLY by its name; standard output, as OBJ, unless given. PLY gets a colour and a
-    /// displacement for each vertex
+    /// displacement for each vertex: what stays keeps the colour that it has, what moved is orange; other numbers are left out
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     /// Roll an ellipsoid in place of the ball: its half axes along x, y and z are the radius times these numbers
@@ -205,7 +205,9 @@ impl WorkArgs {
         let states = work::apply(self, &input, steps)?;
         // There is one at least: each run has a last state.
         let Some(done) = states.last() else { bail!("nothing came out") };
-        let picture = self.preview.as_ref().map(|_| done.picture(&input)).transpose()?;
+        // Of nothing there is no picture.
+        let pictured = self.preview.as_ref().filter(|_| !done.faces.is_empty());
+        let picture = pictured.map(|_| done.picture(&input)).transpose()?;
         let bytes: Vec<Vec<u8>> = states.iter().map(|state| state.write(&input, format)).collect();
         let files = names.iter().zip(&bytes).zip(&states).filter(|(_, state)| !state.faces.is_empty());
         let mut files: Vec<(&Path, &[u8])> =
@@ -219,7 +221,7 @@ impl WorkArgs {
             FormatArg::Text => output::say(&report.lines()),
             FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
         }
-        let is_sound = report.conflicts.is_empty() && report.flow.as_ref().is_none_or(flow::Flown::is_sound);
+        let is_sound = !done.faces.is_empty() && report.conflicts.is_empty() && report.flow.as_ref().is_none_or(flow::Flown::is_sound);
         Ok(if is_sound { ExitStatus::Done } else { ExitStatus::CheckFailed })
     }
 }

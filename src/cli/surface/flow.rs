@@ -226,6 +226,7 @@ pub(super) fn run(
             error: survey.as_ref().map(|s| s.largest),
             edge,
             radius,
+            radii: [field.smallest, field.largest],
             choices: Vec::new(),
             flown: Some(Flown {
                 steps: report.steps,

@@ -98,7 +98,7 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
     let diagonal = input.triangles.diagonal();
     let is_wanted = |polygon: &[u32]| !args.only_moved || has_moved(mesh, polygon, diagonal);
     let taken = mesh.polygons().filter(|polygon| is_wanted(polygon)).count();
-    if args.only_moved && mesh.scalars.is_empty() {
+    if args.only_moved && input.scalar_name.as_deref() != Some(DISPLACEMENT) {
         bail!(
             "--only-moved: the mesh has no displacements: write it as PLY, clopen surface close IN -r RADIUS -o OUT.ply"
         );
@@ -119,7 +119,7 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
     }
     let triangles = moved.triangulated();
     let crossings = self_intersections(&triangles);
-    output::write(&target, &files::write(&moved, format))?;
+    output::write(&target, &files::write_named(&moved, format, input.scalar_name.as_deref()))?;
     let report = Report {
         distance_units: distance,
         vertices_in: input.polygons.points.len(),
@@ -134,7 +134,7 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
         first_self_intersection: crossings.first().map(|&(f, _)| triangles.triangle(f as usize)[0].into()),
         faces_turned: turned.len(),
         first_turned: turned.first().map(|&p| p.into()),
-        remarks: input.remarks(),
+        remarks: input.remarks(false),
     };
     match args.format {
         FormatArg::Text => output::say(&report.lines()),
@@ -143,6 +143,9 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
     let is_sound = report.self_intersections_out <= report.self_intersections_in && report.faces_turned == 0;
     Ok(if is_sound { ExitStatus::Done } else { ExitStatus::CheckFailed })
 }
+
+/// What `close`, `open` and `clopen` call the numbers that they write.
+const DISPLACEMENT: &str = "displacement";
 
 /// A vertex has moved if its displacement is above this, in diagonals of the mesh: less is rounding, where faces were only cut.
 const MOVED: f64 = 1e-6;

@@ -14,7 +14,8 @@ use super::work::{Input, scaled};
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Radius and pins (in units of the mesh)")]
 pub(super) struct FieldArgs {
-    /// The radius at a place, from which it varies linearly to that of --radius-to; --radius is then not used
+    /// The radius at a place, from which it varies linearly to that of --radius-to. --radius is then
+    /// nothing but the unit of the times of a flow
     #[arg(long, value_name = "X,Y,Z=RADIUS", requires = "radius_to", allow_hyphen_values = true)]
     radius_from: Option<PlacedRadius>,
     /// The radius at the other place, and beyond
@@ -117,7 +118,8 @@ impl FieldArgs {
         if self.radius_by_vertex {
             let scalars = &input.polygons.scalars;
             if scalars.is_empty() {
-                bail!("--radius-by-vertex: the mesh has no number at its vertices: give a PLY with a property radius");
+                bail!("--radius-by-vertex: the mesh has no number at its vertices: give a PLY with a property \
+                     quality, scalar, value or radius");
             }
             if let Some(k) = scalars.iter().position(|s| !(*s > 0.0 && s.is_finite())) {
                 bail!("--radius-by-vertex: the number of vertex {k} is {}: it must be above zero", scalars[k]);
