@@ -146,7 +146,7 @@ fn bad_input_is_one_sentence_and_exit_two() {
         ("close bracket.obj -r 0 -o out.obj", "above zero"),
         ("close bracket.obj -r .3 -o out.xyz", ".obj, .stl or .ply"),
         ("close bracket.obj -r .3 -o bracket.obj", "bracket.obj"),
-        ("close bracket.obj -r .3 --pin-ball 99,0,0,1 -o out.obj", "holds no vertex"),
+        ("close bracket.obj -r .3 --pin-ball 99,0,0,1 -o out.obj", "holds nothing of the surface"),
         ("close bracket.obj -r .3 --radius-by-vertex -o out.obj", "radius-by-vertex"),
         ("close bracket.obj -r .3 --format json", "-o OUT.obj"),
     ] {

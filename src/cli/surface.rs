@@ -8,6 +8,7 @@ mod offset;
 mod pins;
 mod repairs;
 mod report;
+mod touch;
 mod work;
 
 use std::path::{Path, PathBuf};
@@ -221,7 +222,9 @@ impl WorkArgs {
             FormatArg::Text => output::say(&report.lines()),
             FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
         }
-        let is_sound = !done.faces.is_empty() && report.conflicts.is_empty() && report.flow.as_ref().is_none_or(flow::Flown::is_sound);
+        let is_sound = !done.faces.is_empty()
+            && report.conflicts.is_empty()
+            && report.flow.as_ref().is_none_or(flow::Flown::is_sound);
         Ok(if is_sound { ExitStatus::Done } else { ExitStatus::CheckFailed })
     }
 }

@@ -93,7 +93,10 @@ fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> 
     };
     let crossings = &report.self_intersections;
     let mut lines = vec![
-        format!("h is {} and the radius {}; {} h are tolerated", report.edge_length_units, report.radius_units, args.tolerance),
+        format!(
+            "h is {} and the radius {}; {} h are tolerated",
+            report.edge_length_units, report.radius_units, args.tolerance
+        ),
         format!(
             "contact error where it moved: {:.4} h in the mean, at most {:.3} h {fat}{} and {:.3} h {unfilled}{}; {:.1} % of the area moved",
             c.mean_over_h,

@@ -8,6 +8,7 @@ use clap::Args;
 use super::MeshLength;
 use crate::mesh::{Hierarchy, Point, Vector};
 
+use super::touch::Space;
 use super::work::{Input, scaled};
 
 /// Radii and pins.
@@ -99,9 +100,11 @@ impl FieldArgs {
     /// The radius by place alone, and what is pinned.
     fn in_space<'a>(&'a self, input: &'a Input, radius: f64) -> Result<Field<'a>> {
         let pin_distance = Box::new(move |p: Point| self.pin_distance(p));
-        for (typed, distance) in self.named_pins() {
-            if input.triangles.points.iter().all(|&p| distance(p) > 0.0) {
-                bail!("{typed} holds no vertex of the mesh: {}", input.extent());
+        let spaces = self.spaces();
+        if !spaces.is_empty() {
+            let hierarchy = Hierarchy::new(&input.triangles.points, &input.triangles.faces);
+            if let Some((typed, _)) = spaces.iter().find(|(_, space)| !space.meets(&input.triangles, &hierarchy)) {
+                bail!("{typed} holds nothing of the surface: {}", input.extent());
             }
         }
         if let (Some(from), Some(to)) = (&self.radius_from, &self.radius_to) {
@@ -118,8 +121,10 @@ impl FieldArgs {
         if self.radius_by_vertex {
             let scalars = &input.polygons.scalars;
             if scalars.is_empty() {
-                bail!("--radius-by-vertex: the mesh has no number at its vertices: give a PLY with a property \
-                     quality, scalar, value or radius");
+                bail!(
+                    "--radius-by-vertex: the mesh has no number at its vertices: give a PLY with a property \
+                     quality, scalar, value or radius"
+                );
             }
             if let Some(k) = scalars.iter().position(|s| !(*s > 0.0 && s.is_finite())) {
                 bail!("--radius-by-vertex: the number of vertex {k} is {}: it must be above zero", scalars[k]);
@@ -158,30 +163,22 @@ impl FieldArgs {
         held.min(free.unwrap_or(f64::INFINITY))
     }
 
-    /// The pins with what was typed.
-    fn named_pins(&self) -> Vec<(String, Distance<'_>)> {
-        let mut pins: Vec<(String, Distance)> = Vec::new();
-        for pin in &self.pin_box {
-            pins.push((format!("--pin-box {}", typed(&pin.0)), Box::new(|p| pin.distance(p))));
+    /// The regions with what was typed.
+    fn spaces(&self) -> Vec<(String, Space)> {
+        let mut spaces = Vec::new();
+        for (option, boxes) in [("--pin-box", &self.pin_box), ("--only-box", &self.only_box)] {
+            spaces.extend(boxes.iter().map(|pin| (format!("{option} {}", typed(&pin.0)), Space::Box(pin.corners()))));
         }
         for pin in &self.pin_ball {
-            pins.push((format!("--pin-ball {}", typed(&pin.0)), Box::new(|p| pin.distance(p))));
+            let middle = Point::new(pin.0[0], pin.0[1], pin.0[2]);
+            spaces.push((format!("--pin-ball {}", typed(&pin.0)), Space::Line([middle; 2], pin.0[3])));
         }
         for pin in &self.pin_line {
-            pins.push((format!("--pin-line {}", typed(&pin.0)), Box::new(|p| pin.distance(p))));
+            spaces.push((format!("--pin-line {}", typed(&pin.0)), Space::Line(pin.ends(), pin.0[6])));
         }
-        for only in &self.only_box {
-            pins.push((
-                format!("--only-box {}", typed(&only.0)),
-                Box::new(|p| if only.depth(p) > 0.0 { 0.0 } else { 1.0 }),
-            ));
-        }
-        pins
+        spaces
     }
 }
-
-/// How far a place is from something.
-type Distance<'a> = Box<dyn Fn(Point) -> f64 + 'a>;
 
 fn typed(numbers: &[f64]) -> String {
     numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
@@ -248,6 +245,11 @@ impl FromStr for Facing {
 struct PinBox([f64; 6]);
 
 impl PinBox {
+    fn corners(&self) -> [Point; 2] {
+        let [x, y, z, dx, dy, dz] = self.0;
+        [Point::new(x, y, z), Point::new(x + dx, y + dy, z + dz)]
+    }
+
     /// How far `p` is from the box, 0 in it.
     fn distance(&self, p: Point) -> f64 {
         let beyond = |k: usize| (self.0[k] - p[k]).max(p[k] - self.0[k] - self.0[k + 3]).max(0.0);
@@ -295,8 +297,12 @@ impl FromStr for PinBall {
 struct PinLine([f64; 7]);
 
 impl PinLine {
+    fn ends(&self) -> [Point; 2] {
+        [0, 3].map(|k| Point::new(self.0[k], self.0[k + 1], self.0[k + 2]))
+    }
+
     fn distance(&self, p: Point) -> f64 {
-        let [a, b] = [0, 3].map(|k| Point::new(self.0[k], self.0[k + 1], self.0[k + 2]));
+        let [a, b] = self.ends();
         let along = b - a;
         let t = ((p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         ((p - (a + along * t)).norm() - self.0[6]).max(0.0)

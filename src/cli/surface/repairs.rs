@@ -10,11 +10,19 @@ pub(super) fn words(repairs: &[Repair]) -> Option<String> {
     let (mut kinds, mut places): (Vec<[&str; 2]>, Vec<Vec<String>>) = (vec![], vec![]);
     for repair in repairs {
         let (kind, place) = match *repair {
-            Repair::DroppedCorner { polygon, .. } => (["repeated corner left out", "repeated corners left out"], polygon),
-            Repair::DroppedDegenerate { polygon } => (["degenerate face left out", "degenerate faces left out"], polygon),
-            Repair::DroppedDuplicate { polygon, .. } => (["duplicate face left out", "duplicate faces left out"], polygon),
+            Repair::DroppedCorner { polygon, .. } => {
+                (["repeated corner left out", "repeated corners left out"], polygon)
+            }
+            Repair::DroppedDegenerate { polygon } => {
+                (["degenerate face left out", "degenerate faces left out"], polygon)
+            }
+            Repair::DroppedDuplicate { polygon, .. } => {
+                (["duplicate face left out", "duplicate faces left out"], polygon)
+            }
             Repair::Reversed { polygon } => (["face turned over", "faces turned over"], polygon),
-            Repair::DroppedVertex { vertex } => (["vertex without faces left out", "vertices without faces left out"], vertex),
+            Repair::DroppedVertex { vertex } => {
+                (["vertex without faces left out", "vertices without faces left out"], vertex)
+            }
         };
         let what = if matches!(repair, Repair::DroppedVertex { .. }) { "vertex" } else { "face" };
         let at = kinds.iter().position(|k| *k == kind).unwrap_or_else(|| {

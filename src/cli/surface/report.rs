@@ -179,6 +179,7 @@ impl Report {
 fn lost(args: &WorkArgs, input: &Input) -> Option<String> {
     let name = input.scalar_name.as_ref()?;
     let format = args.output.as_deref().and_then(crate::io::mesh::MeshFormat::of_path);
-    let instead = if format == Some(crate::io::mesh::MeshFormat::Ply) { ": the PLY has displacements instead" } else { "" };
+    let instead =
+        if format == Some(crate::io::mesh::MeshFormat::Ply) { ": the PLY has displacements instead" } else { "" };
     Some(format!("the numbers at the vertices of the input (`{name}`) are not in the result{instead}"))
 }

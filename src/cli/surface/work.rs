@@ -8,7 +8,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::{MethodArg, Step, WorkArgs, repairs};
 use crate::cli::input;
 use crate::io::mesh::{self as files, MeshFormat};
-use crate::mesh::{MOST_INTERSECTIONS, NONE, Point, PolygonMesh, Problem, Repair, Severity, TriangleMesh, problems, repair};
+use crate::mesh::{
+    MOST_INTERSECTIONS, NONE, Point, PolygonMesh, Problem, Repair, Severity, TriangleMesh, problems, repair,
+};
 use crate::preview::{self, MeshStyle};
 use crate::reference::volumetric_close;
 use crate::rolling::{ClosedSurface, Conflict};
