@@ -82,10 +82,14 @@ fn a_check_counts_what_was_left_undone() {
     assert!(!text.contains(['{', '"']), "a person reads this: {text}");
     done(folder.path(), "check bracket.obj same.obj -r .3 --moved-only");
     done(folder.path(), "check capsule.obj capsule.obj -r .1");
-    // What a pin holds is left on purpose.
+    // What a pin holds is left on purpose; near it, where the radius eases, the full ball still finds that what moved is off.
     done(folder.path(), "close bracket.obj -r .3 --pin-box 0,0,-1,9,9,1.5 -o out.obj");
-    assert_eq!(surface(folder.path(), "check bracket.obj out.obj -r .3").status.code(), Some(1));
-    done(folder.path(), "check bracket.obj out.obj -r .3 --moved-only");
+    let last = |arguments: &str| {
+        let text = String::from_utf8(surface(folder.path(), arguments).stdout).unwrap();
+        text.lines().last().unwrap().to_owned()
+    };
+    assert!(last("check bracket.obj out.obj -r .3").contains("left undone"));
+    assert!(!last("check bracket.obj out.obj -r .3 --moved-only").contains("left undone"));
 }
 
 /// A cube of six faces.
@@ -106,24 +110,26 @@ fn where_nothing_is_left_nothing_is_written() {
 }
 
 #[test]
-fn regions_need_no_vertex() {
+fn regions_are_held_against_the_surface_and_not_its_vertices() {
     let folder = folder();
     fs::write(folder.path().join("cube.obj"), write(&cube(), MeshFormat::Obj)).unwrap();
-    // The middle of one edge of the cube alone.
-    done(folder.path(), "open cube.obj -r 1 --only-box 3,-1,-1,4,2.5,2.5 -o out.obj");
+    // Two opposite vertices are in no box, the first is in one: the other boxes lie on faces and edges.
+    done(folder.path(), "open cube.obj -r 1 --only-box -1,-1,-1,4,4,4 --only-box 3,-1,-1,4,2.5,2.5 -o out.obj");
     let points = mesh(folder.path(), "out.obj").points;
-    assert!(cube().points.iter().all(|p| points.contains(p)));
-    let new: Vec<_> = points.iter().filter(|p| !cube().points.contains(p)).collect();
-    assert!(new.iter().any(|p| (p.x - 5.0).abs() < 1.0 && p.y > 0.1 && p.z > 0.1), "the edge is rounded");
-    let output = surface(folder.path(), "open cube.obj -r 1 --only-box 3,3,3,4,4,4 -o no.obj");
-    assert_eq!(output.status.code(), Some(2));
-    assert!(words(&output).contains("holds nothing of the surface"), "{}", words(&output));
+    assert_eq!(cube().points.iter().filter(|p| points.contains(p)).count(), 7);
+    for (region, expected) in [("3,3,3,4,4,4", "holds nothing of the surface"), ("3,-1,-1,4,2.5,2.5", "but no vertex")]
+    {
+        let output = surface(folder.path(), &format!("open cube.obj -r 1 --only-box {region} -o no.obj"));
+        assert_eq!(output.status.code(), Some(2));
+        assert!(words(&output).contains(expected), "{}", words(&output));
+    }
 }
 
 #[test]
 fn reports_speak_of_what_was_done() {
     let folder = folder();
-    let output = done(folder.path(), "close bracket.obj -r .3 --radius-from 0,0,0=.2 --radius-to 2,0,0=.25 -o out.obj");
+    let varying = "close bracket.obj -r .3 --method direct --radius-from 0,0,0=.2 --radius-to 2,0,0=.25 -o out.obj";
+    let output = surface(folder.path(), varying);
     assert!(words(&output).starts_with("closing by 0.2 to 0.25 with"), "{}", words(&output));
     // Bodies that overlap, with faces that are there twice.
     let mut two = cube();
@@ -134,7 +140,7 @@ fn reports_speak_of_what_was_done() {
     }
     two.push(cube().polygon(2));
     fs::write(folder.path().join("two.obj"), write(&two, MeshFormat::Obj)).unwrap();
-    let output = surface(folder.path(), "close two.obj -r .5 --repair --method direct -o out.obj");
+    let output = surface(folder.path(), "cut two.obj --plane 0,0,1,0,0,1 --repair -o out.obj");
     for expected in ["repaired: 1 duplicate face left out (face 12)", "unite them first"] {
         assert!(words(&output).contains(expected), "{expected}: {}", words(&output));
     }
@@ -216,7 +222,7 @@ fn bad_input_is_one_sentence_and_exit_two() {
         ("close absent.obj -r 1 -o out.obj", "absent.obj"),
         ("close bracket.obj -r 1e9 -o out.obj", "radius"),
         ("close bracket.obj -r 1e-9 -o out.obj", "radius"),
-        ("close bracket.obj -r .001 -o out.obj", "a radius of 0.001 is too small"),
+        ("close bracket.obj -r .0001 -o out.obj", "a radius of 0.0001 is too small"),
         (
             "close bracket.obj -r .3 --bound none -o out.obj",
             "--bound means something to a flow only: add --method flow",

@@ -34,7 +34,8 @@ pub(super) struct SurfaceCheckArgs {
     #[arg(long, value_name = "NUMBER", default_value_t = 1.0, allow_hyphen_values = true)]
     tolerance: f64,
     /// Judge only what moved. Without it, what was left undone where nothing moved counts as well: a result in which nothing was done
-    /// fails. For results with pins, regions or radii that vary, where places stay on purpose
+    /// fails. For results with pins, regions or radii that vary, where places stay on purpose. (Where the
+    /// radius eases near a pin, what moved is still held against the full ball)
     #[arg(long)]
     moved_only: bool,
     /// How to print the report
@@ -104,7 +105,7 @@ fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> 
             at(c.too_fat_place),
             c.unfilled_over_h,
             at(c.unfilled_place),
-            100.0 * c.moved_area_share
+            100.0 * c.moved_area_share.abs()
         ),
         format!(
             "left undone where nothing moved: at most {:.3} h{}{}",

@@ -106,6 +106,13 @@ impl FieldArgs {
             if let Some((typed, _)) = spaces.iter().find(|(_, space)| !space.meets(&input.triangles, &hierarchy)) {
                 bail!("{typed} holds nothing of the surface: {}", input.extent());
             }
+            // Other vertices begin to move only where one does.
+            if !self.only_box.is_empty() && input.triangles.points.iter().all(|&p| self.depth(p) == 0.0) {
+                bail!(
+                    "--only-box: part of the surface is in it, but no vertex, so that nothing would begin to move: make it reach a vertex, or \
+                     divide the faces there first"
+                );
+            }
         }
         if let (Some(from), Some(to)) = (&self.radius_from, &self.radius_to) {
             let along = to.place - from.place;
@@ -159,8 +166,12 @@ impl FieldArgs {
         let balls = self.pin_ball.iter().map(|pin| pin.distance(p));
         let lines = self.pin_line.iter().map(|pin| pin.distance(p));
         let held = boxes.chain(balls).chain(lines).fold(f64::INFINITY, f64::min);
-        let free = self.only_box.iter().map(|only| only.depth(p)).reduce(f64::max);
-        held.min(free.unwrap_or(f64::INFINITY))
+        if self.only_box.is_empty() { held } else { held.min(self.depth(p)) }
+    }
+
+    /// How deep a place is in the boxes outside of which nothing moves, 0 outside.
+    fn depth(&self, p: Point) -> f64 {
+        self.only_box.iter().map(|only| only.depth(p)).fold(0.0, f64::max)
     }
 
     /// The regions with what was typed.
