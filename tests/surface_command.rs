@@ -64,6 +64,86 @@ fn a_mesh_is_closed_with_a_picture_and_a_report() {
     assert!(picture.width() > 100);
     let checked = json(&done(folder.path(), "check bracket.obj out.obj -r .3 --format json"));
     assert!(checked["contact"]["largest_over_h"].as_f64().unwrap() < 0.6, "{checked}");
+    // Quads count as they do in the file.
+    assert_eq!(report["faces_out"].as_u64().unwrap() as usize, after.polygon_count());
+}
+
+#[test]
+fn a_check_counts_what_was_left_undone() {
+    let folder = folder();
+    fs::copy(folder.path().join("bracket.obj"), folder.path().join("same.obj")).unwrap();
+    let output = surface(folder.path(), "check bracket.obj same.obj -r .3");
+    let text = String::from_utf8(output.stdout.clone()).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    // The middle of the concave edge is (√2 - 1) r below the fillet, and h is a sixth of r.
+    let line = text.lines().find(|l| l.starts_with("left undone where nothing moved")).unwrap();
+    assert!(line.contains("at most 2.485 h at (0.8000, 0.8000, "), "{line}");
+    assert!(text.lines().last().unwrap().starts_with("FAILED: something was left undone"), "{text}");
+    assert!(!text.contains(['{', '"']), "a person reads this: {text}");
+    done(folder.path(), "check bracket.obj same.obj -r .3 --moved-only");
+    done(folder.path(), "check capsule.obj capsule.obj -r .1");
+    // What a pin holds is left on purpose; near it, where the radius eases, the full ball still finds that what moved is off.
+    done(folder.path(), "close bracket.obj -r .3 --pin-box 0,0,-1,9,9,1.5 -o out.obj");
+    let last = |arguments: &str| {
+        let text = String::from_utf8(surface(folder.path(), arguments).stdout).unwrap();
+        text.lines().last().unwrap().to_owned()
+    };
+    assert!(last("check bracket.obj out.obj -r .3").contains("left undone"));
+    assert!(!last("check bracket.obj out.obj -r .3 --moved-only").contains("left undone"));
+}
+
+/// A cube of six faces.
+fn cube() -> PolygonMesh {
+    solids::blocks([1, 1, 1], 10.0, |_| true)
+}
+
+#[test]
+fn where_nothing_is_left_nothing_is_written() {
+    let folder = folder();
+    fs::write(folder.path().join("cube.obj"), write(&cube(), MeshFormat::Obj)).unwrap();
+    for command in ["open", "clopen --order open-close"] {
+        let output = surface(folder.path(), &format!("{command} cube.obj -r 5.5 -o out.obj --preview out.png"));
+        assert_eq!(output.status.code(), Some(1), "{}", words(&output));
+        assert!(words(&output).contains("NOTHING is left"), "{}", words(&output));
+        assert!(!folder.path().join("out.obj").exists() && !folder.path().join("out.png").exists());
+    }
+}
+
+#[test]
+fn regions_are_held_against_the_surface_and_not_its_vertices() {
+    let folder = folder();
+    fs::write(folder.path().join("cube.obj"), write(&cube(), MeshFormat::Obj)).unwrap();
+    // Two opposite vertices are in no box, the first is in one: the other boxes lie on faces and edges.
+    done(folder.path(), "open cube.obj -r 1 --only-box -1,-1,-1,4,4,4 --only-box 3,-1,-1,4,2.5,2.5 -o out.obj");
+    let points = mesh(folder.path(), "out.obj").points;
+    assert_eq!(cube().points.iter().filter(|p| points.contains(p)).count(), 7);
+    for (region, expected) in [("3,3,3,4,4,4", "holds nothing of the surface"), ("3,-1,-1,4,2.5,2.5", "but no vertex")]
+    {
+        let output = surface(folder.path(), &format!("open cube.obj -r 1 --only-box {region} -o no.obj"));
+        assert_eq!(output.status.code(), Some(2));
+        assert!(words(&output).contains(expected), "{}", words(&output));
+    }
+}
+
+#[test]
+fn reports_speak_of_what_was_done() {
+    let folder = folder();
+    let varying = "close bracket.obj -r .3 --method direct --radius-from 0,0,0=.2 --radius-to 2,0,0=.25 -o out.obj";
+    let output = surface(folder.path(), varying);
+    assert!(words(&output).starts_with("closing by 0.2 to 0.25 with"), "{}", words(&output));
+    // Bodies that overlap, with faces that are there twice.
+    let mut two = cube();
+    let first = two.points.len() as u32;
+    two.points.extend(cube().points.iter().map(|p| p + Vector::new(5.0, 5.1, 5.2)));
+    for polygon in cube().polygons() {
+        two.push(&polygon.iter().map(|v| v + first).collect::<Vec<_>>());
+    }
+    two.push(cube().polygon(2));
+    fs::write(folder.path().join("two.obj"), write(&two, MeshFormat::Obj)).unwrap();
+    let output = surface(folder.path(), "cut two.obj --plane 0,0,1,0,0,1 --repair -o out.obj");
+    for expected in ["repaired: 1 duplicate face left out (face 12)", "unite them first"] {
+        assert!(words(&output).contains(expected), "{expected}: {}", words(&output));
+    }
 }
 
 #[test]
@@ -142,11 +222,25 @@ fn bad_input_is_one_sentence_and_exit_two() {
         ("close absent.obj -r 1 -o out.obj", "absent.obj"),
         ("close bracket.obj -r 1e9 -o out.obj", "radius"),
         ("close bracket.obj -r 1e-9 -o out.obj", "radius"),
+        ("close bracket.obj -r .0001 -o out.obj", "a radius of 0.0001 is too small"),
+        (
+            "close bracket.obj -r .3 --bound none -o out.obj",
+            "--bound means something to a flow only: add --method flow",
+        ),
+        ("open bracket.obj -r .3 --method direct --time-step 1 -o out.obj", "--time-step"),
+        ("close bracket.obj -r .3 --contacts near -o out.obj", "--contacts"),
+        ("close bracket.obj -r .3 --on-contact stop -o out.obj", "--on-contact"),
+        ("close bracket.obj -r .3 --curvature mean -o out.obj", "--curvature"),
+        ("close bracket.obj -r .3 --time .1 -o out.obj", "--time"),
+        ("close bracket.obj -r .3 -o out.obj --preview ./out.obj", "two results"),
+        ("close bracket.obj -r .3 -o out.obj --preview out.jpg", "out.png"),
+        ("close bracket.obj -r .3 -o out.obj --preview bracket.obj", "bracket.obj"),
+        ("close bracket.obj -r .3 --preview -", "standard output"),
         ("close bracket.obj -r .3 --edge-length 1e-9 -o out.obj", "edge length"),
         ("close bracket.obj -r 0 -o out.obj", "above zero"),
         ("close bracket.obj -r .3 -o out.xyz", ".obj, .stl or .ply"),
         ("close bracket.obj -r .3 -o bracket.obj", "bracket.obj"),
-        ("close bracket.obj -r .3 --pin-ball 99,0,0,1 -o out.obj", "holds no vertex"),
+        ("close bracket.obj -r .3 --pin-ball 99,0,0,1 -o out.obj", "holds nothing of the surface"),
         ("close bracket.obj -r .3 --radius-by-vertex -o out.obj", "radius-by-vertex"),
         ("close bracket.obj -r .3 --format json", "-o OUT.obj"),
     ] {
@@ -199,6 +293,18 @@ fn meshes_have_pictures() {
     assert_eq!(command.output().unwrap().status.code(), Some(0));
     let picture = tiny_skia::Pixmap::decode_png(&fs::read(folder.path().join("figure.png")).unwrap()).unwrap();
     assert_eq!(picture.width().max(picture.height()), 300);
+    // From standard input each format is recognized.
+    let figure = mesh(folder.path(), "figure.obj");
+    for format in [MeshFormat::Obj, MeshFormat::Stl, MeshFormat::Ply] {
+        let mut command = Command::cargo_bin("clopen").unwrap();
+        command.current_dir(folder.path()).args(["preview", "-", "-o", "in.png", "--size", "300"]);
+        let output = command.write_stdin(write(&figure, format)).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{format}: {}", words(&output));
+        assert_eq!(tiny_skia::Pixmap::load_png(folder.path().join("in.png")).unwrap().width(), picture.width());
+    }
+    let mut command = Command::cargo_bin("clopen").unwrap();
+    command.current_dir(folder.path()).args(["preview", "figure.obj", "-o", "figure.svg"]);
+    assert_eq!(command.output().unwrap().status.code(), Some(2));
 }
 
 #[test]

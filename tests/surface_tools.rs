@@ -8,7 +8,7 @@ use std::io::{Read as _, Write as _};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use clopen::io::mesh::{MeshFormat, read, write};
+use clopen::io::mesh::{MeshFormat, read, scalar_name, write, write_named};
 use clopen::mesh::{PolygonMesh, problems};
 use serde_json::Value;
 
@@ -100,6 +100,55 @@ fn what_the_distance_is_too_large_for_fails() {
     let output = surface(folder.path(), "offset bracket.obj -d -.6 -o out.obj").output().unwrap();
     assert_eq!(output.status.code(), Some(1), "{}", words(&output));
     assert!(words(&output).contains("CROSSED"));
+}
+
+#[test]
+fn a_solid_is_not_turned_inside_out() {
+    let folder = folder();
+    let cube = solids::blocks([1, 1, 1], 10.0, |_| true);
+    fs::write(folder.path().join("cube.obj"), write(&cube, MeshFormat::Obj)).unwrap();
+    for arguments in ["-d -6", "-d -6 --shell", "-d -5.001"] {
+        let output = surface(folder.path(), &format!("offset cube.obj {arguments} -o out.obj")).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", words(&output));
+        assert!(words(&output).contains("inside out"), "{}", words(&output));
+        assert!(!folder.path().join("out.obj").exists());
+    }
+    for (arguments, volume) in [("-d -4.9", 0.2f64.powi(3)), ("-d -4 --shell", 1000.0 - 8.0), ("-d 20", 125e3)] {
+        let report = done(folder.path(), &format!("offset cube.obj {arguments} -o out.obj"));
+        assert!((report["volume_out"].as_f64().unwrap() - volume).abs() < 1e-6 * volume, "{report}");
+        assert_eq!(report["faces_turned"], 0);
+    }
+    // A slab of which the rims alone turn over: it is told, with the place.
+    let slab = solids::blocks([4, 4, 1], 1.0, |[x, y, _]| x == 0 || y == 0);
+    fs::write(folder.path().join("slab.obj"), write(&slab, MeshFormat::Obj)).unwrap();
+    let output = surface(folder.path(), "offset slab.obj -d .6 -o out.obj").output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "outward there is room: {}", words(&output));
+    let output = surface(folder.path(), "offset slab.obj -d -.6 -o out.obj").output().unwrap();
+    assert_ne!(output.status.code(), Some(0), "{}", words(&output));
+    assert!(words(&output).contains("TURNED") || words(&output).contains("inside out"), "{}", words(&output));
+}
+
+#[test]
+fn numbers_at_vertices_keep_their_name_and_are_no_displacements() {
+    let folder = folder();
+    let mut cube = solids::blocks([2, 2, 2], 1.0, |_| true);
+    cube.scalars = cube.points.iter().map(|p| p.z).collect();
+    let quality = write_named(&cube, MeshFormat::Ply, Some("quality"));
+    fs::write(folder.path().join("cube.ply"), &quality).unwrap();
+    done(folder.path(), "cut cube.ply --plane 0,0,1.5,0,0,1 -o cut.ply");
+    let cut = fs::read(folder.path().join("cut.ply")).unwrap();
+    assert_eq!(scalar_name(&cut, MeshFormat::Ply).as_deref(), Some("quality"));
+    let below = mesh(folder.path(), "cut.ply");
+    assert!(below.points.iter().zip(&below.scalars).all(|(p, s)| (p.z - s).abs() < 1e-12));
+    let output = surface(folder.path(), "offset cube.ply -d .1 --only-moved -o out.ply").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(words(&output).contains("no displacements"), "{}", words(&output));
+    let output = surface(folder.path(), "open cube.ply -r .2 -o out.ply").output().unwrap();
+    assert!(words(&output).contains("`quality`"), "{}", words(&output));
+    assert_eq!(
+        scalar_name(&fs::read(folder.path().join("out.ply")).unwrap(), MeshFormat::Ply).unwrap(),
+        "displacement"
+    );
 }
 
 #[cfg(unix)]

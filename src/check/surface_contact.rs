@@ -36,6 +36,9 @@ pub(super) const RESOLUTION: f64 = 4e-3;
 /// Boxes of one search from below, at most.
 const MOST_BOXES: usize = 4_000;
 
+/// So many points of the solid are remembered during one search from below.
+const MOST_KNOWN: usize = 24;
+
 /// The search goes no farther than this, in radii.
 const FARTHEST: f64 = 4.0;
 
@@ -134,20 +137,37 @@ impl<'a> Centres<'a> {
         HalfSpace { normal, offset: normal.dot(&p.coords) + self.radius }
     }
 
-    /// Whether the middle of a box is a free centre; nothing where no place of the box that is nearer to `x` than `within` can be
-    /// one, because it is in the ball around the point of the solid nearest to the middle.
-    fn look_into(&self, x: Point, within: f64, cell: &Cell) -> Option<Free> {
-        let (r, center, half) = (self.radius, cell.center, cell.half);
-        let reach = half * 3f64.sqrt();
-        let Some(near) = self.solid.signed(center, r + reach) else { return Some(Free::Yes) };
-        let p = near.nearest;
-        let limit = (r * (1.0 - TOUCH)).powi(2);
+    /// Whether all places of a box that are nearer to `x` than `within` are in the ball around a point of the solid.
+    fn is_in_ball(&self, p: &Point, x: Point, within: f64, cell: &Cell) -> bool {
+        let (center, half) = (cell.center, cell.half);
+        let limit = (self.radius * (1.0 - TOUCH)).powi(2);
         let farthest2: f64 = (0..3).map(|k| ((center[k] - p[k]).abs() + half).powi(2)).sum();
         // |z - p|² = |z - x|² + 2 (z - x)·(x - p) + |x - p|²: the first is bounded by the ball, the second by the box.
         let from = x - p;
         let along = (center - x).dot(&from) + half * from.abs().sum();
         let in_lens2 = within * within + 2.0 * along + from.norm_squared();
-        if farthest2.min(in_lens2) < limit || near.distance < -reach {
+        farthest2.min(in_lens2) < limit
+    }
+
+    /// Whether the middle of a box is a free centre; nothing where no place of the box that is nearer to `x` than `within` can be
+    /// one, because it is in the ball around a point of the solid: one of those that are `known`, or the one nearest to the
+    /// middle, which is then known as well.
+    fn look_into(&self, x: Point, within: f64, cell: &Cell, known: &mut Vec<Point>) -> Option<Free> {
+        let (r, center, half) = (self.radius, cell.center, cell.half);
+        let is_in_ball = |p: &Point| self.is_in_ball(p, x, within, cell);
+        if let Some(k) = known.iter().position(is_in_ball) {
+            // What holds one box holds its neighbours, which come next.
+            known[..=k].rotate_right(1);
+            return None;
+        }
+        let reach = half * 3f64.sqrt();
+        // The solid is no farther than any point of it.
+        let no_farther =
+            known.iter().map(|p| (center - p).norm()).fold(r + reach, f64::min) * (1.0 + TOUCH) + TOUCH * r;
+        let Some(near) = self.solid.signed(center, no_farther) else { return Some(Free::Yes) };
+        known.truncate(MOST_KNOWN - 1);
+        known.insert(0, near.nearest);
+        if is_in_ball(&near.nearest) || near.distance < -reach {
             return None;
         }
         Some(if near.distance >= r { Free::Yes } else { Free::No })
@@ -161,6 +181,7 @@ impl<'a> Centres<'a> {
         let mut boxes = BinaryHeap::new();
         boxes.push(Cell { distance: 0.0, center: x, half: found });
         let mut looked = 0;
+        let mut known = Vec::with_capacity(MOST_KNOWN);
         let mut below = found;
         while let Some(cell) = boxes.pop() {
             if cell.distance >= found - gain || looked >= MOST_BOXES {
@@ -168,7 +189,7 @@ impl<'a> Centres<'a> {
                 break;
             }
             looked += 1;
-            let Some(free) = self.look_into(x, found - gain, &cell) else { continue };
+            let Some(free) = self.look_into(x, found - gain, &cell, &mut known) else { continue };
             let center_distance = (cell.center - x).norm();
             if free == Free::Yes && center_distance < found {
                 found = center_distance;
@@ -181,8 +202,11 @@ impl<'a> Centres<'a> {
                 let side = |i: u32| if k >> i & 1 == 0 { -half } else { half };
                 let center = cell.center + Vector::new(side(0), side(1), side(2));
                 let distance = (0..3).map(|i| ((center[i] - x[i]).abs() - half).max(0.0).powi(2)).sum::<f64>().sqrt();
-                if distance < found - gain {
-                    boxes.push(Cell { distance, center, half });
+                let part = Cell { distance, center, half };
+                // Most parts are held by what all but held the whole: these need not wait for their turn.
+                if distance < found - gain && !known.first().is_some_and(|p| self.is_in_ball(p, x, found - gain, &part))
+                {
+                    boxes.push(part);
                 }
             }
         }
@@ -211,9 +235,11 @@ impl Ord for Cell {
     fn cmp(&self, other: &Cell) -> Ordering {
         // The smaller of equally near ones first, and then any fixed order.
         let places = |c: &Cell| [c.center.x, c.center.y, c.center.z];
-        let order = other.distance.total_cmp(&self.distance).then(other.half.total_cmp(&self.half));
-        let pairs = places(self).into_iter().zip(places(other));
-        pairs.fold(order, |order, (a, b)| order.then(a.total_cmp(&b)))
+        let of_places = || {
+            let pairs = places(self).into_iter().zip(places(other));
+            pairs.fold(Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(&b)))
+        };
+        other.distance.total_cmp(&self.distance).then_with(|| other.half.total_cmp(&self.half)).then_with(of_places)
     }
 }
 

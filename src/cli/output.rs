@@ -48,23 +48,18 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 /// # Errors
 /// Names the file.
 pub(super) fn write_together(contents: &[Content]) -> Result<()> {
+    keep_apart(&contents.iter().map(|(path, _)| *path).collect::<Vec<_>>())?;
     let written = write_all(contents);
     staged().clear();
     written
 }
 
 fn write_all(contents: &[Content]) -> Result<()> {
-    let cannot =
-        |path: &Path| format!("{}: cannot be written; is the folder there, and may you write to it?", path.display());
+    let cannot = |path: &Path| format!("{}: cannot be written", path.display());
     let mut files = Vec::new();
     let mut streams = Vec::new();
     for &(path, bytes) in contents {
-        // A temporary file that cannot be made is named in the error, and is nothing to anyone.
-        let plain = |e: std::io::Error| match e.kind() {
-            std::io::ErrorKind::NotFound => std::io::Error::new(e.kind(), "there is no such folder"),
-            kind if e.get_ref().is_some() => kind.into(),
-            _ => e,
-        };
+        let plain = |e: std::io::Error| plain(&e, path).map_or(e, std::io::Error::other);
         match stage(path, bytes).map_err(plain).with_context(|| cannot(path))? {
             Staged::Stream => streams.push((path, bytes)),
             Staged::File { file, target } => files.push((path, file, target)),
@@ -96,6 +91,20 @@ enum Staged {
     File { file: tempfile::NamedTempFile, target: PathBuf },
     /// The target is standard output, a pipe or a device.
     Stream,
+}
+
+/// Why a file could not be made, in words, where the system's say little: a temporary file that cannot be made is named in them, and
+/// is nothing to anyone.
+fn plain(error: &std::io::Error, path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    match error.kind() {
+        std::io::ErrorKind::NotFound if folder.is_none_or(Path::is_dir) => {
+            Some("no file can be made in this folder: name another".to_owned())
+        }
+        std::io::ErrorKind::NotFound => Some("there is no such folder: make it first".to_owned()),
+        std::io::ErrorKind::PermissionDenied => Some("you may not write there: name another place".to_owned()),
+        kind => error.get_ref().is_some().then(|| kind.to_string()),
+    }
 }
 
 /// A temporary file beside the file that `path` leads to, holding `bytes`, with the permissions of what it replaces.
@@ -192,9 +201,66 @@ pub(super) fn keep_input(input: &Path, target: &Path) -> Result<()> {
     Ok(())
 }
 
+/// Refuses two outputs at one place: one of them would be lost.
+///
+/// # Errors
+/// Names the place.
+pub(super) fn keep_apart(targets: &[&Path]) -> Result<()> {
+    let places: Vec<PathBuf> = targets.iter().map(|target| place(target)).collect();
+    for (k, target) in targets.iter().enumerate() {
+        if places[..k].contains(&places[k]) {
+            let name = if *target == Path::new("-") { "standard output".into() } else { target.display().to_string() };
+            bail!("{name}: two results would go there, one over the other: give each a name of its own");
+        }
+    }
+    Ok(())
+}
+
+/// Where a path leads to, also one to a file that is still to be made.
+fn place(path: &Path) -> PathBuf {
+    if let Ok(found) = path.canonicalize() {
+        return found;
+    }
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    match (folder.canonicalize(), path.file_name()) {
+        (Ok(folder), Some(name)) if path != Path::new("-") => folder.join(name),
+        _ => path.to_owned(),
+    }
+}
+
+/// Refuses a name for a picture that says another format than the one that is written.
+///
+/// # Errors
+/// Names the file and what to call it.
+pub(super) fn keep_png(target: &Path) -> Result<()> {
+    let is_png = |extension: &std::ffi::OsStr| extension.eq_ignore_ascii_case("png");
+    match target.extension().filter(|extension| !is_png(extension)) {
+        Some(_) => bail!(
+            "{}: pictures are written as PNG, and the name says something else: call it {}",
+            target.display(),
+            target.with_extension("png").display()
+        ),
+        None => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn two_results_do_not_go_to_one_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let [a, b] = ["a.obj", "./a.obj"].map(|name| folder.path().join(name));
+        assert!(keep_apart(&[&a, &b]).is_err() && keep_apart(&[&a, &folder.path().join("b.obj")]).is_ok());
+        assert!(keep_apart(&[Path::new("-"), Path::new("-")]).is_err());
+        std::fs::write(&a, "mesh").unwrap();
+        assert!(write_together(&[(&a, b"mesh"), (&b, b"picture")]).is_err());
+        assert_eq!(std::fs::read(&a).unwrap(), b"mesh");
+        for (name, is_png) in [("x.png", true), ("x.PNG", true), ("-", true), ("x", true), ("x.jpg", false)] {
+            assert_eq!(keep_png(Path::new(name)).is_ok(), is_png, "{name}");
+        }
+    }
 
     #[test]
     fn what_is_read_is_not_written_over() {

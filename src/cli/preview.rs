@@ -8,9 +8,8 @@ use clap::Args;
 use super::ExitStatus;
 use super::input::{self, ReadArgs};
 use super::output;
-use super::surface::read_polygons;
 use crate::gcode;
-use crate::io::mesh::MeshFormat;
+use crate::io::mesh::{self as files, MeshFormat};
 use crate::preview::{self, DEFAULT_SIZE, MeshStyle, Scene};
 use crate::units::Length;
 
@@ -41,15 +40,24 @@ pub(super) struct PreviewArgs {
 /// # Errors
 /// Where the file cannot be read or the picture not written.
 pub(super) fn run(args: &PreviewArgs) -> Result<ExitStatus> {
-    if MeshFormat::of_path(&args.file).is_some() {
-        return mesh(args);
+    if let Some(output) = &args.output {
+        output::keep_png(output)?;
     }
     let bytes = input::read_bytes(&args.file)?;
     // A drawing begins with markup, whatever its name; a program never does.
     let is_svg = bytes.trim_ascii_start().first() == Some(&b'<') || bytes.starts_with(b"\xef\xbb\xbf<");
-    let target = args.output.clone().unwrap_or_else(|| beside(&args.file, is_svg));
+    // What comes without a name is a mesh if it looks like one.
+    let format = match MeshFormat::of_path(&args.file) {
+        None if args.file == Path::new("-") && !is_svg => MeshFormat::known_by(&bytes),
+        by_name => by_name,
+    };
+    let target = args.output.clone().unwrap_or_else(|| beside(&args.file, is_svg && format.is_none()));
     output::keep_input(&args.file, &target)?;
-    let picture = if is_svg { drawing(args, &bytes)? } else { program(args, bytes)? };
+    let picture = match format {
+        Some(format) => mesh(args, &bytes, format)?,
+        None if is_svg => drawing(args, &bytes)?,
+        None => program(args, bytes)?,
+    };
     output::write(&target, &picture)?;
     if target != Path::new("-") {
         output::say(&format!("wrote {}\n", target.display()));
@@ -57,18 +65,12 @@ pub(super) fn run(args: &PreviewArgs) -> Result<ExitStatus> {
     Ok(ExitStatus::Done)
 }
 
-fn mesh(args: &PreviewArgs) -> Result<ExitStatus> {
-    let target = args.output.clone().unwrap_or_else(|| args.file.with_extension("png"));
-    output::keep_input(&args.file, &target)?;
-    let polygons = read_polygons(&args.file)?;
+fn mesh(args: &PreviewArgs, bytes: &[u8], format: MeshFormat) -> Result<Vec<u8>> {
+    let name = || args.file.display().to_string();
+    let polygons = files::read(bytes, format).with_context(name)?;
     let colours = Some(polygons.colours.as_slice()).filter(|c| c.len() == polygons.points.len());
     let style = MeshStyle { colours, size: args.size, ..MeshStyle::default() };
-    let picture = preview::mesh(&polygons.triangulated(), &style).with_context(|| args.file.display().to_string())?;
-    output::write(&target, &picture)?;
-    if target != Path::new("-") {
-        output::say(&format!("wrote {}\n", target.display()));
-    }
-    Ok(ExitStatus::Done)
+    preview::mesh(&polygons.triangulated(), &style).with_context(name)
 }
 
 fn drawing(args: &PreviewArgs, bytes: &[u8]) -> Result<Vec<u8>> {

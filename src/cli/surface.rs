@@ -6,7 +6,9 @@ mod cut;
 mod flow;
 mod offset;
 mod pins;
+mod repairs;
 mod report;
+mod touch;
 mod work;
 
 use std::path::{Path, PathBuf};
@@ -17,7 +19,6 @@ use clap::{Args, Subcommand, ValueEnum};
 use super::check::FormatArg;
 use super::{ExitStatus, output};
 use pins::FieldArgs;
-pub(super) use work::read_polygons;
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
@@ -52,7 +53,7 @@ struct WorkArgs {
     #[arg(short, long, value_name = "RADIUS", allow_hyphen_values = true)]
     radius: MeshLength,
     /// Where the result goes: OBJ, STL or PLY by its name; standard output, as OBJ, unless given. PLY gets a colour and a
-    /// displacement for each vertex
+    /// displacement for each vertex: what stays keeps the colour that it has, what moved is orange; other numbers are left out
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     /// Roll an ellipsoid in place of the ball: its half axes along x, y and z are the radius times these numbers
@@ -186,29 +187,33 @@ impl WorkArgs {
         if self.format == FormatArg::Json && target == Path::new("-") {
             bail!("--format json prints the report on standard output, where the mesh would go: add -o OUT.obj");
         }
-        output::keep_input(&self.input, &target)?;
-        for target in [Some(&target), self.preview.as_ref()].into_iter().flatten() {
+        let names: Vec<PathBuf> = match self.flow.frames {
+            Some(n) if n > 1 && target == Path::new("-") => bail!("{n} frames need a name: add -o OUT.obj"),
+            Some(n @ 2..=flow::MOST_FRAMES) => (1..=n as usize).map(|k| numbered(&target, k, n as usize)).collect(),
+            _ => vec![target.clone()],
+        };
+        let targets: Vec<&Path> = names.iter().chain(&self.preview).map(PathBuf::as_path).collect();
+        output::keep_apart(&targets)?;
+        for target in targets {
+            output::keep_input(&self.input, target)?;
             output::keep_folder(target)?;
+        }
+        if let Some(preview) = &self.preview {
+            output::keep_png(preview)?;
         }
         let format = work::format_of(&target)?;
         let input = work::Input::read(&self.input, self.repair)?;
         let states = work::apply(self, &input, steps)?;
         // There is one at least: each run has a last state.
         let Some(done) = states.last() else { bail!("nothing came out") };
-        let picture = self.preview.as_ref().map(|_| done.picture(&input)).transpose()?;
-        let names: Vec<PathBuf> = match states.len() {
-            1 => vec![target.clone()],
-            n if target == Path::new("-") => bail!("{n} frames need a name: add -o OUT.obj"),
-            n => (1..=n).map(|k| numbered(&target, k, n)).collect(),
-        };
-        for name in &names {
-            output::keep_input(&self.input, name)?;
-        }
+        // Of nothing there is no picture.
+        let pictured = self.preview.as_ref().filter(|_| !done.faces.is_empty());
+        let picture = pictured.map(|_| done.picture(&input)).transpose()?;
         let bytes: Vec<Vec<u8>> = states.iter().map(|state| state.write(&input, format)).collect();
+        let files = names.iter().zip(&bytes).zip(&states).filter(|(_, state)| !state.faces.is_empty());
         let mut files: Vec<(&Path, &[u8])> =
-            names.iter().zip(&bytes).map(|(name, bytes)| (name.as_path(), bytes.as_slice())).collect();
+            files.map(|((name, bytes), _)| (name.as_path(), bytes.as_slice())).collect();
         if let (Some(path), Some(picture)) = (&self.preview, &picture) {
-            output::keep_input(&self.input, path)?;
             files.push((path, picture));
         }
         output::write_together(&files)?;
@@ -217,7 +222,9 @@ impl WorkArgs {
             FormatArg::Text => output::say(&report.lines()),
             FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
         }
-        let is_sound = report.conflicts.is_empty() && report.flow.as_ref().is_none_or(flow::Flown::is_sound);
+        let is_sound = !done.faces.is_empty()
+            && report.conflicts.is_empty()
+            && report.flow.as_ref().is_none_or(flow::Flown::is_sound);
         Ok(if is_sound { ExitStatus::Done } else { ExitStatus::CheckFailed })
     }
 }

@@ -1,6 +1,5 @@
 //! `clopen surface check IN OUT -r R`.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use anyhow::{Context as _, Result};
@@ -8,9 +7,10 @@ use clap::Args;
 
 use super::MeshLength;
 use super::work::read_polygons;
-use crate::check::{self, SurfaceReport};
+use crate::check::{self, SurfacePlace, SurfaceReport};
 use crate::cli::check::{FormatArg, OperationArg};
 use crate::cli::{ExitStatus, output};
+use crate::reference::Operation;
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
@@ -33,6 +33,11 @@ pub(super) struct SurfaceCheckArgs {
     /// Largest accepted distance from the true result, in edge lengths
     #[arg(long, value_name = "NUMBER", default_value_t = 1.0, allow_hyphen_values = true)]
     tolerance: f64,
+    /// Judge only what moved. Without it, what was left undone where nothing moved counts as well: a result in which nothing was done
+    /// fails. For results with pins, regions or radii that vary, where places stay on purpose. (Where the
+    /// radius eases near a pin, what moved is still held against the full ball)
+    #[arg(long)]
+    moved_only: bool,
     /// How to print the report
     #[arg(long, value_enum, default_value = "text")]
     format: FormatArg,
@@ -50,30 +55,123 @@ pub(super) fn run(args: &SurfaceCheckArgs) -> Result<ExitStatus> {
     let edge = args.edge_length.map_or(radius / 6.0, |e| e.on(diagonal));
     let report = check::surface(&input, &result, radius, args.op.into(), edge)
         .with_context(|| format!("{} and {}", args.input.display(), args.output.display()))?;
-    let passes = report.contact.largest_over_h <= args.tolerance
-        && report.containment.output_violation_over_h <= args.tolerance
-        && report.self_intersections.output_pairs <= report.self_intersections.input_pairs;
+    let failures = failures(&report, args);
     match args.format {
-        FormatArg::Text => output::print(&lines(&report, args.tolerance, passes))?,
+        FormatArg::Text => output::print(&lines(&report, args, &failures))?,
         FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
     }
-    Ok(if passes { ExitStatus::Done } else { ExitStatus::CheckFailed })
+    Ok(if failures.is_empty() { ExitStatus::Done } else { ExitStatus::CheckFailed })
 }
 
-fn lines(report: &SurfaceReport, tolerance: f64, passes: bool) -> String {
-    let c = &report.contact;
-    let mut text = String::new();
-    let _ = writeln!(
-        text,
-        "contact error {:.4} h in the mean, at most {:.3} h too fat and {:.3} h unfilled (tolerance {tolerance} h)",
-        c.mean_over_h, c.too_fat_over_h, c.unfilled_over_h
-    );
-    let _ = writeln!(text, "{}", serde_json::to_string(&report.containment).unwrap_or_default());
-    let _ = writeln!(text, "{}", serde_json::to_string(&report.kept).unwrap_or_default());
-    let _ = writeln!(text, "{}", serde_json::to_string(&report.quality).unwrap_or_default());
-    let _ = writeln!(text, "{}", serde_json::to_string(&report.curvature).unwrap_or_default());
-    let _ = writeln!(text, "{}", serde_json::to_string(&report.topology).unwrap_or_default());
-    let _ = writeln!(text, "self-intersecting pairs of faces: {}", report.self_intersections.output_pairs);
-    text += if passes { "passed\n" } else { "FAILED\n" };
-    text
+/// Why the result does not pass.
+fn failures(report: &SurfaceReport, args: &SurfaceCheckArgs) -> Vec<&'static str> {
+    let (contact, crossings) = (&report.contact, &report.self_intersections);
+    let reasons = [
+        (contact.largest_over_h > args.tolerance, "what moved is off"),
+        (
+            contact.unfilled_where_kept_over_h > args.tolerance && !args.moved_only,
+            "something was left undone where nothing moved (meant so, by pins or regions? --moved-only judges only what moved)",
+        ),
+        (report.containment.output_violation_over_h > args.tolerance, "containment is violated"),
+        (crossings.output_pairs > crossings.input_pairs, "more faces cross each other than before"),
+    ];
+    reasons.into_iter().filter(|(holds, _)| *holds).map(|(_, why)| why).collect()
+}
+
+/// A place in words, where there is one.
+fn at(place: Option<SurfacePlace>) -> String {
+    place.map_or(String::new(), |[x, y, z]| format!(" at ({x:.4}, {y:.4}, {z:.4})"))
+}
+
+/// The report for people.
+fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> String {
+    let SurfaceReport { contact: c, containment, kept, quality, curvature, .. } = report;
+    let (before, after) = (&report.topology.input, &report.topology.output);
+    // An opening is measured as the closing of what is around the solid.
+    let [fat, unfilled, within, without] = match report.operation {
+        Operation::Close => ["too fat", "unfilled", "inside", "outside"],
+        Operation::Open => ["too thin", "not removed", "outside", "inside"],
+    };
+    let crossings = &report.self_intersections;
+    let mut lines = vec![
+        format!(
+            "h is {} and the radius {}; {} h are tolerated",
+            report.edge_length_units, report.radius_units, args.tolerance
+        ),
+        format!(
+            "contact error where it moved: {:.4} h in the mean, at most {:.3} h {fat}{} and {:.3} h {unfilled}{}; {:.1} % of the area moved",
+            c.mean_over_h,
+            c.too_fat_over_h,
+            at(c.too_fat_place),
+            c.unfilled_over_h,
+            at(c.unfilled_place),
+            100.0 * c.moved_area_share.abs()
+        ),
+        format!(
+            "left undone where nothing moved: at most {:.3} h{}{}",
+            c.unfilled_where_kept_over_h,
+            at(c.unfilled_where_kept_place),
+            if args.moved_only { " (not judged)" } else { "" }
+        ),
+        format!(
+            "containment: the result is at most {:.3} h {within} the input{}; the input at most {:.3} h {without} the result{}",
+            containment.output_violation_over_h,
+            at(containment.output_place),
+            containment.input_violation_over_h,
+            at(containment.input_place)
+        ),
+        format!(
+            "kept bit for bit: {} of {} vertices ({} of the {} that need not move) and {} of {} triangles",
+            kept.vertices_found,
+            kept.input_vertices,
+            kept.still_vertices_found,
+            kept.still_vertices,
+            kept.faces_found,
+            kept.input_faces
+        ),
+    ];
+    if quality.moved_faces > 0 {
+        lines.push(format!(
+            "triangles that moved: {}, smallest angle {:.2} degrees{}, in the mean {:.1}; edges of {:.2} h in the mean",
+            quality.moved_faces,
+            quality.smallest_angle_degrees,
+            at(quality.smallest_angle_place),
+            quality.mean_smallest_angle_degrees,
+            quality.mean_edge_over_h
+        ));
+    }
+    if curvature.moved_vertices > 0 {
+        // A closing bounds the curvature from below.
+        let sign = if report.operation == Operation::Close { 1.0 } else { -1.0 };
+        lines.push(format!(
+            "curvature of {} vertices that moved: {:.2} % beyond 1.1/r, {:.2} % beyond 1.5/r, the farthest {:.2}/r ({:.0}/r is the bound)",
+            curvature.moved_vertices,
+            100.0 * curvature.share_below_1_1,
+            100.0 * curvature.share_below_1_5,
+            sign * curvature.least_times_r,
+            -sign
+        ));
+    }
+    lines.push(format!(
+        "topology: {} -> {} vertices, {} -> {} triangles, {} -> {} parts, {} -> {} borders, Euler characteristic {} -> {}, \
+         {} -> {} edges that are not between two faces",
+        before.vertices,
+        after.vertices,
+        before.faces,
+        after.faces,
+        before.components,
+        after.components,
+        before.boundary_loops,
+        after.boundary_loops,
+        before.euler_characteristic,
+        after.euler_characteristic,
+        before.nonmanifold_edges,
+        after.nonmanifold_edges
+    ));
+    lines.push(format!("self-intersecting pairs of faces: {} -> {}", crossings.input_pairs, crossings.output_pairs));
+    lines.push(match failures {
+        [] => "passed".to_owned(),
+        _ => format!("FAILED: {}", failures.join("; ")),
+    });
+    lines.join("\n") + "\n"
 }

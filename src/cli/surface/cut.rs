@@ -86,7 +86,7 @@ pub(super) fn run(args: &CutArgs) -> Result<ExitStatus> {
     let cap = if args.open { Cap::Open } else { Cap::Closed };
     let left = cut(&input.polygons, &args.plane.0, cap)
         .with_context(|| format!("{} ({})", args.input.display(), input.extent()))?;
-    output::write(&target, &files::write(&left.mesh, format))?;
+    output::write(&target, &files::write_named(&left.mesh, format, input.scalar_name.as_deref()))?;
     let report = Report {
         vertices_in: input.polygons.points.len(),
         vertices_kept: left.origins.iter().filter(|&&v| v != NONE).count(),
@@ -98,7 +98,7 @@ pub(super) fn run(args: &CutArgs) -> Result<ExitStatus> {
         open_ends: left.open_ends,
         volume_in: input.triangles.volume(),
         volume_out: left.mesh.triangulated().volume(),
-        remarks: input.remarks(),
+        remarks: input.remarks(false),
     };
     match args.format {
         FormatArg::Text => output::say(&report.lines(args.open)),

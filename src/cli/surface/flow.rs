@@ -16,7 +16,7 @@ use crate::mesh::TriangleMesh;
 use crate::rolling::{Roller, Touch};
 
 /// Frames that a run may have.
-const MOST_FRAMES: u32 = 1000;
+pub(super) const MOST_FRAMES: u32 = 1000;
 
 /// What only a flow has.
 #[derive(Clone, Debug, Args)]
@@ -31,18 +31,34 @@ pub(super) struct FlowArgs {
     /// Step in time, in squares of the edge length [default: 2; with --time 0.2]
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     time_step: Option<f64>,
-    /// What drives the surface
-    #[arg(long, value_enum, default_value_t = CurvatureArg::Minimum)]
-    curvature: CurvatureArg,
-    /// What stays where it is
-    #[arg(long, value_enum, default_value_t = BoundArg::Curvature)]
-    bound: BoundArg,
+    /// What drives the surface [default: minimum]
+    #[arg(long, value_enum)]
+    curvature: Option<CurvatureArg>,
+    /// What stays where it is [default: curvature]
+    #[arg(long, value_enum)]
+    bound: Option<BoundArg>,
     /// Where the surface stops [default: all; near with --time, --curvature mean, --bound none, and for clopen]
     #[arg(long, value_enum)]
     contacts: Option<ContactsArg>,
-    /// What happens where the surface runs into itself
-    #[arg(long, value_enum, default_value_t = OnContactArg::Freeze)]
-    on_contact: OnContactArg,
+    /// What happens where the surface runs into itself [default: freeze]
+    #[arg(long, value_enum)]
+    on_contact: Option<OnContactArg>,
+}
+
+impl FlowArgs {
+    /// An option that was given and means nothing without a flow.
+    pub fn first_given(&self) -> Option<&'static str> {
+        let given = [
+            (self.time.is_some(), "--time"),
+            (self.frames.is_some(), "--frames"),
+            (self.time_step.is_some(), "--time-step"),
+            (self.curvature.is_some(), "--curvature"),
+            (self.bound.is_some(), "--bound"),
+            (self.contacts.is_some(), "--contacts"),
+            (self.on_contact.is_some(), "--on-contact"),
+        ];
+        given.into_iter().find(|(is_given, _)| *is_given).map(|(_, name)| name)
+    }
 }
 
 /// Near a pin, the radius of a flow is this part of the distance from it, as [`SurfaceField`] says.
@@ -140,10 +156,11 @@ pub(super) fn run(
     if let Some(frames) = flow.frames.filter(|n| !(1..=MOST_FRAMES).contains(n)) {
         bail!("--frames is {frames}: give a number from 1 to {MOST_FRAMES}");
     }
-    if flow.bound == BoundArg::None && flow.time.is_none() {
+    let bound = flow.bound.unwrap_or(BoundArg::Curvature);
+    if bound == BoundArg::None && flow.time.is_none() {
         bail!("--bound none: without a bound everything shrinks to nothing: say when to stop with --time 0.1");
     }
-    let obstacle = match (flow.bound, steps) {
+    let obstacle = match (bound, steps) {
         (BoundArg::None, _) => Obstacle::NONE,
         (_, [Step::Close]) => Obstacle::CLOSING,
         (_, [Step::Open]) => Obstacle::OPENING,
@@ -152,12 +169,12 @@ pub(super) fn run(
     let default_step = if flow.time.is_some() { FINE_TIME_STEP } else { DEFAULT_SURFACE_TIME_STEP };
     let settings = SurfaceSettings {
         time_step: flow.time_step.unwrap_or(default_step),
-        on_contact: match flow.on_contact {
+        on_contact: match flow.on_contact.unwrap_or(OnContactArg::Freeze) {
             OnContactArg::Report => OnContact::Report,
             OnContactArg::Stop => OnContact::Stop,
             OnContactArg::Freeze => OnContact::Freeze,
         },
-        kind: match flow.curvature {
+        kind: match flow.curvature.unwrap_or(CurvatureArg::Minimum) {
             CurvatureArg::Minimum => Kind::Minimum,
             CurvatureArg::Mean => Kind::Mean,
         },
@@ -209,6 +226,7 @@ pub(super) fn run(
             error: survey.as_ref().map(|s| s.largest),
             edge,
             radius,
+            radii: [field.smallest, field.largest],
             choices: Vec::new(),
             flown: Some(Flown {
                 steps: report.steps,

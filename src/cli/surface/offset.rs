@@ -11,7 +11,7 @@ use super::work::{Input, format_of};
 use crate::cli::check::FormatArg;
 use crate::cli::{ExitStatus, output};
 use crate::io::mesh as files;
-use crate::mesh::{PolygonMesh, Thickness, offset_part, self_intersections};
+use crate::mesh::{Point, PolygonMesh, Thickness, Vector, offset, offset_part, self_intersections};
 
 /// The arguments.
 #[derive(Clone, Debug, Args)]
@@ -74,6 +74,10 @@ struct Report {
     self_intersections_out: usize,
     /// A corner of the first face that passes through another one.
     first_self_intersection: Option<[f64; 3]>,
+    /// Faces that the distance turns over.
+    faces_turned: usize,
+    /// A corner of the first of them, before it is moved.
+    first_turned: Option<[f64; 3]>,
     remarks: Vec<String>,
 }
 
@@ -94,7 +98,7 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
     let diagonal = input.triangles.diagonal();
     let is_wanted = |polygon: &[u32]| !args.only_moved || has_moved(mesh, polygon, diagonal);
     let taken = mesh.polygons().filter(|polygon| is_wanted(polygon)).count();
-    if args.only_moved && mesh.scalars.is_empty() {
+    if args.only_moved && input.scalar_name.as_deref() != Some(DISPLACEMENT) {
         bail!(
             "--only-moved: the mesh has no displacements: write it as PLY, clopen surface close IN -r RADIUS -o OUT.ply"
         );
@@ -105,9 +109,17 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
     let distance = args.distance.sign * args.distance.length.on(diagonal);
     let thickness = if args.shell { Thickness::Shell } else { Thickness::Surface };
     let moved = offset_part(mesh, distance, thickness, is_wanted).with_context(|| args.input.display().to_string())?;
+    let turned = turned(mesh, distance, is_wanted)?;
+    if turned.len() == taken {
+        bail!(
+            "{}: a distance of {distance} turns the whole surface inside out: it is more than the surface is thick or round there; \
+             give a smaller one (the diagonal of the mesh is {diagonal})",
+            args.input.display()
+        );
+    }
     let triangles = moved.triangulated();
     let crossings = self_intersections(&triangles);
-    output::write(&target, &files::write(&moved, format))?;
+    output::write(&target, &files::write_named(&moved, format, input.scalar_name.as_deref()))?;
     let report = Report {
         distance_units: distance,
         vertices_in: input.polygons.points.len(),
@@ -120,15 +132,20 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
         self_intersections_in: self_intersections(&input.triangles).len(),
         self_intersections_out: crossings.len(),
         first_self_intersection: crossings.first().map(|&(f, _)| triangles.triangle(f as usize)[0].into()),
-        remarks: input.remarks(),
+        faces_turned: turned.len(),
+        first_turned: turned.first().map(|&p| p.into()),
+        remarks: input.remarks(false),
     };
     match args.format {
         FormatArg::Text => output::say(&report.lines()),
         FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
     }
-    let is_sound = report.self_intersections_out <= report.self_intersections_in;
+    let is_sound = report.self_intersections_out <= report.self_intersections_in && report.faces_turned == 0;
     Ok(if is_sound { ExitStatus::Done } else { ExitStatus::CheckFailed })
 }
+
+/// What `close`, `open` and `clopen` call the numbers that they write.
+const DISPLACEMENT: &str = "displacement";
 
 /// A vertex has moved if its displacement is above this, in diagonals of the mesh: less is rounding, where faces were only cut.
 const MOVED: f64 = 1e-6;
@@ -136,6 +153,35 @@ const MOVED: f64 = 1e-6;
 /// Whether a corner of a polygon has moved.
 fn has_moved(mesh: &PolygonMesh, polygon: &[u32], diagonal: f64) -> bool {
     polygon.iter().any(|&v| mesh.scalars.get(v as usize).is_some_and(|d| d.abs() > MOVED * diagonal))
+}
+
+/// A corner of each polygon that the move turns over: its normal is reversed, or it is turned by half a circle in its plane, as
+/// the faces of a cube are that is moved inward by more than half its side.
+fn turned(mesh: &PolygonMesh, distance: f64, is_wanted: impl Fn(&[u32]) -> bool) -> Result<Vec<Point>> {
+    let surface = offset(mesh, distance, Thickness::Surface)?;
+    let pairs = mesh.polygons().zip(surface.polygons()).filter(|(polygon, _)| is_wanted(polygon));
+    let is_turned = |&(before, after): &(&[u32], &[u32])| {
+        let [old, new] = [(mesh, before), (&surface, after)].map(|(mesh, corners)| sides(mesh, corners));
+        let [was, is] = [&old, &new].map(|sides| area_vector(sides));
+        is.dot(&was) < 0.0 || old.iter().zip(&new).all(|(a, b)| a.dot(b) < 0.0)
+    };
+    Ok(pairs.filter(is_turned).map(|(before, _)| mesh.points[before[0] as usize]).collect())
+}
+
+/// The sides of a polygon as vectors.
+fn sides(mesh: &PolygonMesh, corners: &[u32]) -> Vec<Vector> {
+    let at = |k: usize| mesh.points[corners[k % corners.len()] as usize];
+    (0..corners.len()).map(|k| at(k + 1) - at(k)).collect()
+}
+
+/// Twice the area within these sides, along the normal.
+fn area_vector(sides: &[Vector]) -> Vector {
+    let mut from_first = Vector::zeros();
+    sides.iter().fold(Vector::zeros(), |sum, side| {
+        let part = from_first.cross(side);
+        from_first += side;
+        sum + part
+    })
 }
 
 impl Report {
@@ -149,6 +195,13 @@ impl Report {
                 "CROSSED: {} pairs of faces pass through each other ({} before), one at ({x:.4}, {y:.4}, {z:.4}): the surface is \
                  more curved there than the distance allows\n",
                 self.self_intersections_out, self.self_intersections_in
+            );
+        }
+        if let Some([x, y, z]) = self.first_turned {
+            text += &format!(
+                "TURNED: {} faces are turned over, one from ({x:.4}, {y:.4}, {z:.4}): the distance is more than the surface is thick or round \
+                 there\n",
+                self.faces_turned
             );
         }
         self.remarks.iter().for_each(|remark| text += &format!("note: {remark}\n"));

@@ -8,13 +8,15 @@ use clap::Args;
 use super::MeshLength;
 use crate::mesh::{Hierarchy, Point, Vector};
 
+use super::touch::Space;
 use super::work::{Input, scaled};
 
 /// Radii and pins.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Radius and pins (in units of the mesh)")]
 pub(super) struct FieldArgs {
-    /// The radius at a place, from which it varies linearly to that of --radius-to; --radius is then not used
+    /// The radius at a place, from which it varies linearly to that of --radius-to. --radius is then
+    /// nothing but the unit of the times of a flow
     #[arg(long, value_name = "X,Y,Z=RADIUS", requires = "radius_to", allow_hyphen_values = true)]
     radius_from: Option<PlacedRadius>,
     /// The radius at the other place, and beyond
@@ -98,9 +100,18 @@ impl FieldArgs {
     /// The radius by place alone, and what is pinned.
     fn in_space<'a>(&'a self, input: &'a Input, radius: f64) -> Result<Field<'a>> {
         let pin_distance = Box::new(move |p: Point| self.pin_distance(p));
-        for (typed, distance) in self.named_pins() {
-            if input.triangles.points.iter().all(|&p| distance(p) > 0.0) {
-                bail!("{typed} holds no vertex of the mesh: {}", input.extent());
+        let spaces = self.spaces();
+        if !spaces.is_empty() {
+            let hierarchy = Hierarchy::new(&input.triangles.points, &input.triangles.faces);
+            if let Some((typed, _)) = spaces.iter().find(|(_, space)| !space.meets(&input.triangles, &hierarchy)) {
+                bail!("{typed} holds nothing of the surface: {}", input.extent());
+            }
+            // Other vertices begin to move only where one does.
+            if !self.only_box.is_empty() && input.triangles.points.iter().all(|&p| self.depth(p) == 0.0) {
+                bail!(
+                    "--only-box: part of the surface is in it, but no vertex, so that nothing would begin to move: make it reach a vertex, or \
+                     divide the faces there first"
+                );
             }
         }
         if let (Some(from), Some(to)) = (&self.radius_from, &self.radius_to) {
@@ -117,7 +128,10 @@ impl FieldArgs {
         if self.radius_by_vertex {
             let scalars = &input.polygons.scalars;
             if scalars.is_empty() {
-                bail!("--radius-by-vertex: the mesh has no number at its vertices: give a PLY with a property radius");
+                bail!(
+                    "--radius-by-vertex: the mesh has no number at its vertices: give a PLY with a property \
+                     quality, scalar, value or radius"
+                );
             }
             if let Some(k) = scalars.iter().position(|s| !(*s > 0.0 && s.is_finite())) {
                 bail!("--radius-by-vertex: the number of vertex {k} is {}: it must be above zero", scalars[k]);
@@ -152,34 +166,30 @@ impl FieldArgs {
         let balls = self.pin_ball.iter().map(|pin| pin.distance(p));
         let lines = self.pin_line.iter().map(|pin| pin.distance(p));
         let held = boxes.chain(balls).chain(lines).fold(f64::INFINITY, f64::min);
-        let free = self.only_box.iter().map(|only| only.depth(p)).reduce(f64::max);
-        held.min(free.unwrap_or(f64::INFINITY))
+        if self.only_box.is_empty() { held } else { held.min(self.depth(p)) }
     }
 
-    /// The pins with what was typed.
-    fn named_pins(&self) -> Vec<(String, Distance<'_>)> {
-        let mut pins: Vec<(String, Distance)> = Vec::new();
-        for pin in &self.pin_box {
-            pins.push((format!("--pin-box {}", typed(&pin.0)), Box::new(|p| pin.distance(p))));
+    /// How deep a place is in the boxes outside of which nothing moves, 0 outside.
+    fn depth(&self, p: Point) -> f64 {
+        self.only_box.iter().map(|only| only.depth(p)).fold(0.0, f64::max)
+    }
+
+    /// The regions with what was typed.
+    fn spaces(&self) -> Vec<(String, Space)> {
+        let mut spaces = Vec::new();
+        for (option, boxes) in [("--pin-box", &self.pin_box), ("--only-box", &self.only_box)] {
+            spaces.extend(boxes.iter().map(|pin| (format!("{option} {}", typed(&pin.0)), Space::Box(pin.corners()))));
         }
         for pin in &self.pin_ball {
-            pins.push((format!("--pin-ball {}", typed(&pin.0)), Box::new(|p| pin.distance(p))));
+            let middle = Point::new(pin.0[0], pin.0[1], pin.0[2]);
+            spaces.push((format!("--pin-ball {}", typed(&pin.0)), Space::Line([middle; 2], pin.0[3])));
         }
         for pin in &self.pin_line {
-            pins.push((format!("--pin-line {}", typed(&pin.0)), Box::new(|p| pin.distance(p))));
+            spaces.push((format!("--pin-line {}", typed(&pin.0)), Space::Line(pin.ends(), pin.0[6])));
         }
-        for only in &self.only_box {
-            pins.push((
-                format!("--only-box {}", typed(&only.0)),
-                Box::new(|p| if only.depth(p) > 0.0 { 0.0 } else { 1.0 }),
-            ));
-        }
-        pins
+        spaces
     }
 }
-
-/// How far a place is from something.
-type Distance<'a> = Box<dyn Fn(Point) -> f64 + 'a>;
 
 fn typed(numbers: &[f64]) -> String {
     numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
@@ -246,6 +256,11 @@ impl FromStr for Facing {
 struct PinBox([f64; 6]);
 
 impl PinBox {
+    fn corners(&self) -> [Point; 2] {
+        let [x, y, z, dx, dy, dz] = self.0;
+        [Point::new(x, y, z), Point::new(x + dx, y + dy, z + dz)]
+    }
+
     /// How far `p` is from the box, 0 in it.
     fn distance(&self, p: Point) -> f64 {
         let beyond = |k: usize| (self.0[k] - p[k]).max(p[k] - self.0[k] - self.0[k + 3]).max(0.0);
@@ -293,8 +308,12 @@ impl FromStr for PinBall {
 struct PinLine([f64; 7]);
 
 impl PinLine {
+    fn ends(&self) -> [Point; 2] {
+        [0, 3].map(|k| Point::new(self.0[k], self.0[k + 1], self.0[k + 2]))
+    }
+
     fn distance(&self, p: Point) -> f64 {
-        let [a, b] = [0, 3].map(|k| Point::new(self.0[k], self.0[k + 1], self.0[k + 2]));
+        let [a, b] = self.ends();
         let along = b - a;
         let t = ((p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         ((p - (a + along * t)).norm() - self.0[6]).max(0.0)

@@ -19,13 +19,18 @@ pub(super) struct Report {
     steps: Vec<Step>,
     method: MethodArg,
     radius_units: f64,
+    /// From where to where the radius goes, if it varies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    radii_units: Option<[f64; 2]>,
     edge_length_units: f64,
     vertices_in: usize,
     vertices_kept: usize,
     vertices_out: usize,
     faces_in: usize,
     faces_kept: usize,
+    /// Faces are those of the files: quads and larger ones count once.
     faces_out: usize,
+    triangles_out: usize,
     volume_in: f64,
     volume_out: f64,
     /// The largest distance of the middle of an edge or face of the moved part from the closing, in edge lengths.
@@ -53,20 +58,22 @@ impl Report {
             steps: steps.to_vec(),
             method: args.method,
             radius_units: done.radius,
+            radii_units: Some(done.radii).filter(|[a, b]| a != b),
             edge_length_units: done.edge,
             vertices_in: input.triangles.points.len(),
             vertices_kept: done.origins.iter().filter(|&&v| v != NONE).count(),
             vertices_out: done.points.len(),
             faces_in: input.polygons.polygon_count(),
             faces_kept: done.kept_polygons(input).iter().filter(|kept| **kept).count(),
-            faces_out: done.faces.len(),
+            faces_out: done.polygon_count(input),
+            triangles_out: done.faces.len(),
             volume_in: input.triangles.volume(),
             volume_out: result.volume(),
             largest_error_edge_lengths: done.error.map(|error| error / done.edge),
             choices: if args.method == MethodArg::Auto { done.choices.clone() } else { Vec::new() },
             flow: done.flown.clone(),
             repairs: input.repairs.len(),
-            remarks: input.remarks(),
+            remarks: input.remarks(true).into_iter().chain(lost(args, input)).collect(),
             conflicts: done
                 .conflicts
                 .iter()
@@ -84,10 +91,20 @@ impl Report {
                 Step::Open => "opening",
             })
             .collect();
+        let radius = match self.radii_units {
+            Some([least, most]) => format!("{least} to {most}"),
+            None => self.radius_units.to_string(),
+        };
+        if self.faces_out == 0 {
+            return format!(
+                "{} by {radius}: NOTHING is left, as the ball fits nowhere in it, and no mesh is written; give a smaller radius\n",
+                steps.join(", then ")
+            );
+        }
         let mut text = format!(
-            "{} by {} with edges of {:.4}: {} of {} vertices and {} of {} faces kept bit for bit, now {} and {}; volume {:+.3} %\n",
+            "{} by {radius} with edges of {:.4}: {} of {} vertices and {} of {} faces kept bit for bit, now {} vertices and {} faces; volume \
+             {:+.3} %\n",
             steps.join(", then "),
-            self.radius_units,
             self.edge_length_units,
             self.vertices_kept,
             self.vertices_in,
@@ -130,23 +147,25 @@ impl Report {
                 );
             }
         }
-        if self.repairs > 0 {
-            let _ = writeln!(text, "{} repairs", self.repairs);
-        }
         for remark in &self.remarks {
             let _ = writeln!(text, "note: {remark}");
         }
+        let (done, beyond) = match self.steps.as_slice() {
+            [Step::Close] => ("closed", "cut into the input"),
+            [Step::Open] => ("opened", "stick out of the input"),
+            _ => ("changed", "leave the side of the input that it belongs on"),
+        };
         for conflict in self.conflicts.iter().take(NAMED) {
             let [x, y, z] = conflict.place;
             let what = match conflict.trouble {
-                Trouble::Tear => "the surface would tear",
-                Trouble::Fold => "the surface would fold",
-                Trouble::Lost => "the ball finds no rest, or the surface did not get there",
-                Trouble::Dip => "the surface would cut into the input",
+                Trouble::Tear => "the surface would tear".to_owned(),
+                Trouble::Fold => "the surface would fold".to_owned(),
+                Trouble::Lost => "the ball finds no rest, or the surface did not get there".to_owned(),
+                Trouble::Dip => format!("the surface would {beyond}"),
             };
             let _ = writeln!(
                 text,
-                "CONFLICT at ({x:.4}, {y:.4}, {z:.4}): {what}; what is around it was closed less or not at all"
+                "CONFLICT at ({x:.4}, {y:.4}, {z:.4}): {what}; what is around it was {done} less or not at all"
             );
         }
         if self.conflicts.len() > NAMED {
@@ -154,4 +173,13 @@ impl Report {
         }
         text
     }
+}
+
+/// What of the numbers and colours of the input is not in the result, in words.
+fn lost(args: &WorkArgs, input: &Input) -> Option<String> {
+    let name = input.scalar_name.as_ref()?;
+    let format = args.output.as_deref().and_then(crate::io::mesh::MeshFormat::of_path);
+    let instead =
+        if format == Some(crate::io::mesh::MeshFormat::Ply) { ": the PLY has displacements instead" } else { "" };
+    Some(format!("the numbers at the vertices of the input (`{name}`) are not in the result{instead}"))
 }

@@ -5,10 +5,12 @@ use std::path::Path;
 use anyhow::{Context as _, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{MethodArg, Step, WorkArgs};
+use super::{MethodArg, Step, WorkArgs, repairs};
 use crate::cli::input;
 use crate::io::mesh::{self as files, MeshFormat};
-use crate::mesh::{NONE, Point, PolygonMesh, Problem, Repair, Severity, TriangleMesh, problems, repair};
+use crate::mesh::{
+    MOST_INTERSECTIONS, NONE, Point, PolygonMesh, Problem, Repair, Severity, TriangleMesh, problems, repair,
+};
 use crate::preview::{self, MeshStyle};
 use crate::reference::volumetric_close;
 use crate::rolling::{ClosedSurface, Conflict};
@@ -43,6 +45,8 @@ pub(super) struct Input {
     pub triangles: TriangleMesh,
     pub allowed: Vec<Problem>,
     pub repairs: Vec<Repair>,
+    /// What the file calls the numbers at its vertices, if it has some.
+    pub scalar_name: Option<String>,
 }
 
 /// The format of a file that is to be written.
@@ -57,10 +61,16 @@ pub(super) fn format_of(path: &Path) -> Result<MeshFormat> {
 }
 
 /// The polygons in a file.
-pub(in crate::cli) fn read_polygons(path: &Path) -> Result<PolygonMesh> {
+pub(super) fn read_polygons(path: &Path) -> Result<PolygonMesh> {
+    Ok(read_named(path)?.0)
+}
+
+/// The polygons in a file, and what it calls the numbers at their vertices.
+fn read_named(path: &Path) -> Result<(PolygonMesh, Option<String>)> {
     let bytes = input::read_bytes(path)?;
     let format = MeshFormat::of_path(path).unwrap_or_else(|| MeshFormat::of_bytes(&bytes));
-    files::read(&bytes, format).with_context(|| path.display().to_string())
+    let mesh = files::read(&bytes, format).with_context(|| path.display().to_string())?;
+    Ok((mesh, files::scalar_name(&bytes, format)))
 }
 
 impl Input {
@@ -69,7 +79,7 @@ impl Input {
     /// # Errors
     /// Where the file cannot be read, or the mesh is no surface with an inside.
     pub fn read(path: &Path, mend: bool) -> Result<Input> {
-        let mut polygons = read_polygons(path)?;
+        let (mut polygons, scalar_name) = read_named(path)?;
         let mut repairs = Vec::new();
         if mend {
             (polygons, repairs) = repair(polygons);
@@ -94,7 +104,7 @@ impl Input {
         }
         let allowed = found.iter().filter(|p| p.severity() == Severity::Allowed).copied().collect();
         let triangles = polygons.triangulated();
-        Ok(Input { polygons, triangles, allowed, repairs })
+        Ok(Input { polygons, triangles, allowed, repairs, scalar_name })
     }
 
     /// Where the mesh is, in words.
@@ -103,9 +113,27 @@ impl Input {
         format!("it reaches from ({}, {}, {}) to ({}, {}, {})", low.x, low.y, low.z, high.x, high.y, high.z)
     }
 
-    /// What is allowed and worth saying.
-    pub fn remarks(&self) -> Vec<String> {
-        self.allowed.iter().take(NAMED).map(Problem::to_string).collect()
+    /// What is allowed and worth saying; whether borders stay where they are, as where a ball rolls.
+    pub fn remarks(&self, are_borders_pinned: bool) -> Vec<String> {
+        let words = |problem: &Problem| match problem {
+            Problem::Boundary { vertex, edges } if !are_borders_pinned => {
+                format!("the surface has a boundary of {edges} edges at vertex {vertex}")
+            }
+            other => other.to_string(),
+        };
+        let mut remarks: Vec<String> = repairs::words(&self.repairs).into_iter().collect();
+        remarks.extend(self.allowed.iter().take(NAMED).map(words));
+        let crossings = self.allowed.iter().filter(|p| matches!(p, Problem::SelfIntersection { .. })).count();
+        if crossings > 0 {
+            let more = if crossings >= MOST_INTERSECTIONS { " or more" } else { "" };
+            remarks.push(format!(
+                "{crossings} pairs of faces{more} pass through each other in all: if these are bodies that overlap, unite them first; what is \
+                 inside of another body is not the outside of the whole"
+            ));
+        } else if self.allowed.len() > NAMED {
+            remarks.push(format!("{} such remarks in all", self.allowed.len()));
+        }
+        remarks
     }
 }
 
@@ -121,7 +149,9 @@ pub(super) struct Done {
     /// The largest distance from the exact result that was seen, where it was looked for.
     pub error: Option<f64>,
     pub edge: f64,
+    /// The radius that was asked for, and from where to where it goes.
     pub radius: f64,
+    pub radii: [f64; 2],
     /// Which method each step took, and why.
     pub choices: Vec<super::choose::Choice>,
     /// How the flow went, if it was one.
@@ -130,6 +160,9 @@ pub(super) struct Done {
 
 /// Does the steps, one after the other; the states on the way of a flow that was asked for them, and the last one.
 pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Vec<Done>> {
+    if let Some(option) = args.flow.first_given().filter(|_| args.method != MethodArg::Flow) {
+        bail!("{option} means something to a flow only: add --method flow");
+    }
     let diagonal = input.triangles.diagonal();
     let radius = args.radius.on(diagonal);
     let mut field = args.field.resolve(input, radius)?;
@@ -160,11 +193,20 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
             .min(input.triangles.mean_edge().max(FINEST_EDGE * field.smallest))
             .min(LONGEST_EDGE * diagonal),
     };
-    if edge < SHORTEST_EDGE * diagonal || edge > field.smallest {
+    let shortest = SHORTEST_EDGE * diagonal;
+    if args.edge_length.is_none() && edge < shortest {
+        let least = shortest / if input.triangles.mean_edge() < shortest { FINEST_EDGE } else { EDGE };
+        bail!(
+            "a radius of {} is too small for a mesh whose box has a diagonal of {diagonal}: its fillets would have more triangles than \
+             can be held; give {least:.3e} or more",
+            field.smallest
+        );
+    }
+    if edge < shortest || edge > field.smallest {
         bail!(
             "an edge length of {edge}: it must be at most the radius ({}) and at least {:.3e}",
             field.smallest,
-            SHORTEST_EDGE * diagonal
+            shortest
         );
     }
     let bar = ProgressBar::new_spinner();
@@ -180,6 +222,7 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
         error: None,
         edge,
         radius,
+        radii: [field.smallest, field.largest],
         choices: Vec::new(),
         flown: None,
     };
@@ -189,10 +232,10 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
         bar.finish_and_clear();
         return states;
     }
-    if args.flow.time.is_some() {
-        bail!("--time: only a flow has states in time: add --method flow");
-    }
     for step in steps {
+        if done.faces.is_empty() {
+            break;
+        }
         bar.set_message(match step {
             Step::Close => "closing",
             Step::Open => "opening",
@@ -276,6 +319,14 @@ impl Done {
         let mut left = vec![0u32; count];
         self.parents.iter().filter(|&&p| p != NONE).for_each(|&p| left[parent(p as usize)] += 1);
         total.iter().zip(&left).map(|(t, l)| *t > 0 && t == l).collect()
+    }
+
+    /// How many faces the file of the result has.
+    pub fn polygon_count(&self, input: &Input) -> usize {
+        let kept = self.kept_polygons(input);
+        let parent = |t: u32| input.triangles.parents.get(t as usize).map_or(t, |&p| p);
+        let is_cut = |&&origin: &&u32| origin == NONE || !kept[parent(origin) as usize];
+        kept.iter().filter(|kept| **kept).count() + self.parents.iter().filter(is_cut).count()
     }
 
     fn polygons(&self, input: &Input, colour: bool) -> PolygonMesh {

@@ -60,6 +60,12 @@ impl MeshFormat {
             MeshFormat::Obj
         }
     }
+
+    /// The format that these bytes have without doubt, among all other files: an OBJ has a statement of one among its first lines.
+    pub fn known_by(bytes: &[u8]) -> Option<MeshFormat> {
+        let format = MeshFormat::of_bytes(bytes);
+        (format != MeshFormat::Obj || obj::has_vertices(bytes)).then_some(format)
+    }
 }
 
 impl fmt::Display for MeshFormat {
@@ -110,11 +116,22 @@ pub fn read(bytes: &[u8], format: MeshFormat) -> Result<PolygonMesh, MeshError> 
 ///   end); no colours, no numbers.
 /// - PLY: binary little endian, f64, polygons as they are, colours, and the numbers at the vertices as `displacement`.
 pub fn write(mesh: &PolygonMesh, format: MeshFormat) -> Vec<u8> {
+    write_named(mesh, format, None)
+}
+
+/// As [`write()`], with another name than `displacement` for the numbers at the vertices: one that [`scalar_name`] has found.
+pub fn write_named(mesh: &PolygonMesh, format: MeshFormat, scalar_name: Option<&str>) -> Vec<u8> {
+    let known = scalar_name.filter(|name| ply::SCALARS.contains(name));
     match format {
         MeshFormat::Obj => obj::write(mesh),
         MeshFormat::Stl => stl::write(mesh),
-        MeshFormat::Ply => ply::write(mesh),
+        MeshFormat::Ply => ply::write(mesh, known.unwrap_or(ply::SCALARS[0])),
     }
+}
+
+/// What a file calls the numbers at its vertices that [`read`] gives; nothing where there are none.
+pub fn scalar_name(bytes: &[u8], format: MeshFormat) -> Option<String> {
+    if format == MeshFormat::Ply { ply::scalar_name(bytes) } else { None }
 }
 
 /// The colour of vertices that have none among others that have one.

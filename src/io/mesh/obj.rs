@@ -29,6 +29,25 @@ pub(super) fn is_obj(bytes: &[u8]) -> bool {
     }
 }
 
+/// Whether a vertex with its three coordinates is the first statement but for names of materials, objects and groups: no other text
+/// begins so.
+pub(super) fn has_vertices(bytes: &[u8]) -> bool {
+    let mut text = Text::new(bytes, Syntax::Joined);
+    loop {
+        match text.word() {
+            None | Some(b"mtllib" | b"usemtl" | b"o" | b"g" | b"s" | b"vn" | b"vt") => {}
+            Some(b"v") => {
+                let is_number = |w: &[u8]| std::str::from_utf8(w).is_ok_and(|w| w.parse::<f64>().is_ok());
+                return (0..3).all(|_| text.word().is_some_and(is_number));
+            }
+            Some(_) => return false,
+        }
+        if !text.next_line() {
+            return false;
+        }
+    }
+}
+
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
     let mut text = Text::new(bytes, Syntax::Joined);
     let mut mesh = PolygonMesh::default();

@@ -11,8 +11,8 @@ use crate::mesh::{Point, PolygonMesh};
 use header::{Element, Encoding, Header, Kind, Property, Type};
 use source::Source;
 
-/// The names of the number that is read with the vertices; the first is the one that is written.
-const SCALARS: [&str; 5] = ["displacement", "quality", "scalar", "value", "radius"];
+/// The names of the number that is read with the vertices; the first is the one that is written unless another is asked for.
+pub(super) const SCALARS: [&str; 5] = ["displacement", "quality", "scalar", "value", "radius"];
 
 /// Whether this is PLY without doubt.
 pub(super) fn is_ply(bytes: &[u8]) -> bool {
@@ -94,7 +94,7 @@ fn read_vertices<'a>(source: &mut Source<'a>, element: &'a Element, mesh: &mut P
         let Kind::Scalar(kind) = element.properties[at].kind else { continue };
         roles[at] = Role::Colour(k, kind);
     }
-    let scalar = find(&SCALARS);
+    let scalar = scalar(element);
     if let Some(at) = scalar {
         roles[at] = Role::Scalar;
     }
@@ -156,7 +156,21 @@ fn read_faces<'a>(
     Ok(())
 }
 
-pub(super) fn write(mesh: &PolygonMesh) -> Vec<u8> {
+/// The name of the number that is read with the vertices, if there is one.
+pub(super) fn scalar_name(bytes: &[u8]) -> Option<String> {
+    let header = Header::read(bytes).ok()?;
+    let vertices = header.elements.iter().find(|e| e.name == "vertex")?;
+    scalar(vertices).map(|at| vertices.properties[at].name.clone())
+}
+
+/// Which property of the vertices the number is.
+fn scalar(vertices: &Element) -> Option<usize> {
+    let is_named = |p: &Property| matches!(p.kind, Kind::Scalar(_)) && SCALARS.contains(&p.name.as_str());
+    vertices.properties.iter().position(is_named)
+}
+
+/// The file, with this name for the numbers at the vertices.
+pub(super) fn write(mesh: &PolygonMesh, scalar_name: &str) -> Vec<u8> {
     let has_colours = !mesh.points.is_empty() && mesh.colours.len() == mesh.points.len();
     let has_scalars = !mesh.points.is_empty() && mesh.scalars.len() == mesh.points.len();
     // Some programs know signed numbers of corners alone, and no counts above a byte.
@@ -172,7 +186,7 @@ pub(super) fn write(mesh: &PolygonMesh) -> Vec<u8> {
         header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     }
     if has_scalars {
-        header += &format!("property double {}\n", SCALARS[0]);
+        header += &format!("property double {scalar_name}\n");
     }
     header +=
         &format!("element face {}\nproperty list {count} {item} vertex_indices\nend_header\n", mesh.polygon_count());
