@@ -8,8 +8,8 @@ use super::surface_report::{
     SurfaceReport, SurfaceTopologies, TriangleQuality,
 };
 use super::surface_samples::{SurfaceSample, samples};
-use super::surface_shape::{angles, is_used, minimum_curvatures, self_intersections, topology, winding_number};
-use crate::mesh::{Point, TriangleMesh};
+use super::surface_shape::{angles, is_used, minimum_curvatures, topology, winding_number};
+use crate::mesh::{Point, TriangleMesh, self_intersections};
 use crate::reference::{Operation, Solid, threads};
 
 /// A vertex of the output has moved if it is farther than this from the input, in diagonals of the input: above all rounding,

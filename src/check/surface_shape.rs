@@ -1,7 +1,7 @@
 //! What a surface of triangles is like by itself: topology, crossings, angles, curvature.
 
 use super::surface_report::SurfaceTopology;
-use crate::mesh::{Hierarchy, Point, TriangleMesh, Vector};
+use crate::mesh::{Point, TriangleMesh, Vector};
 
 /// The sides of all edges, those of one edge together: the vertices of the edge, the lower first, and 3 face + corner.
 pub(super) fn sides(mesh: &TriangleMesh) -> Vec<([u32; 2], u32)> {
@@ -90,60 +90,6 @@ pub(super) fn is_used(mesh: &TriangleMesh) -> Vec<bool> {
     used
 }
 
-/// Pairs of faces that cross each other, the lower number first: faces that share an edge do not count.
-pub(super) fn self_intersections(mesh: &TriangleMesh) -> Vec<(u32, u32)> {
-    let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
-    let faces: Vec<u32> = (0..mesh.faces.len() as u32).collect();
-    let of_face = |&f: &u32| {
-        let [a, b, c] = mesh.triangle(f as usize);
-        let mut found = Vec::new();
-        hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |g| {
-            if g > f && do_cross(mesh, f, g) {
-                found.push((f, g));
-            }
-            false
-        });
-        found.sort_unstable();
-        found
-    };
-    crate::reference::threads::map(&faces, of_face).into_iter().flatten().collect()
-}
-
-/// Whether two faces cross. With a corner in common, whether the side opposite to it crosses the other face.
-fn do_cross(mesh: &TriangleMesh, f: u32, g: u32) -> bool {
-    let (a, b) = (mesh.faces[f as usize], mesh.faces[g as usize]);
-    let shared: Vec<u32> = a.iter().copied().filter(|v| b.contains(v)).collect();
-    let pierces = |from: [u32; 3], into: u32| {
-        let triangle = mesh.triangle(into as usize);
-        (0..3).map(|k| [from[k], from[(k + 1) % 3]]).filter(|side| !side.iter().any(|v| shared.contains(v))).any(
-            |side| {
-                let [p, q] = side.map(|v| mesh.points[v as usize]);
-                is_pierced(triangle, p, q)
-            },
-        )
-    };
-    shared.len() < 2 && (pierces(a, g) || pierces(b, f))
-}
-
-/// Whether the segment from `p` to `q` goes through the triangle from one side to the other. What touches does not.
-fn is_pierced([a, b, c]: [Point; 3], p: Point, q: Point) -> bool {
-    let volume = |u: Point, v: Point, w: Point, x: Point| (v - u).cross(&(w - u)).dot(&(x - u));
-    // Of a volume: the rounding of coordinates over the squares of the lengths. Faces in one plane do not cross.
-    let places = [a, b, c, p, q];
-    let largest = places.iter().map(|x| x.coords.amax()).fold(0.0, f64::max);
-    let extent = places.iter().map(|x| (x - a).norm()).fold(0.0, f64::max);
-    let rounding = VOLUME_ROUNDING * largest * extent * extent;
-    let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
-    if above.min(below) >= -rounding || above.max(below) <= rounding {
-        return false;
-    }
-    let turns = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)];
-    turns.iter().all(|x| *x > rounding) || turns.iter().all(|x| *x < -rounding)
-}
-
-/// How many roundings of the largest coordinate a volume can be wrong by, over the square of the extent.
-const VOLUME_ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 /// How often the surface winds around `p` (van Oosterom and Strackee, 1983): 1 inside, 0 outside, whatever single faces are like.
 pub(super) fn winding_number(mesh: &TriangleMesh, p: Point) -> f64 {
     let solid_angle = |k: usize| {
@@ -222,22 +168,6 @@ mod tests {
         let mut twisted = ball;
         twisted.faces[10].swap(0, 1);
         assert_eq!(topology(&twisted).nonmanifold_edges, 3);
-    }
-
-    #[test]
-    fn crossings_are_found_and_neighbours_do_not_cross() {
-        let ball = sphere(Point::origin(), 1.0, 4);
-        assert!(self_intersections(&ball).is_empty());
-        let apart = both(&ball, &sphere(Point::new(2.1, 0.0, 0.0), 1.0, 4));
-        assert!(self_intersections(&apart).is_empty());
-        let crossing = both(&ball, &sphere(Point::new(1.5, 0.01, 0.02), 1.0, 4));
-        let pairs = self_intersections(&crossing);
-        let n = ball.faces.len() as u32;
-        assert!(!pairs.is_empty() && pairs.iter().all(|(f, g)| *f < n && *g >= n));
-        // A vertex pulled through the other side takes its faces through those there.
-        let mut pulled = ball.clone();
-        pulled.points[0] = Point::from(pulled.points[0].coords * -1.3 + Vector::new(0.01, 0.02, 0.03));
-        assert!(self_intersections(&pulled).len() >= 4);
     }
 
     #[test]

@@ -7,11 +7,8 @@ use super::MethodArg;
 use super::flow::{self, PIN_EASE};
 use super::pins::Field;
 use crate::flow::{FlownSurface, Obstacle, OnContact, SurfaceFlow, SurfaceSettings};
-use crate::mesh::{Hierarchy, NONE, TriangleMesh, self_intersections, self_intersections_of};
+use crate::mesh::{Hierarchy, NONE, Point, TriangleMesh, self_intersections, self_intersections_of};
 use crate::rolling::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Trouble, close_surface, land_surface};
-
-/// A face whose middle is farther than so many edge lengths from the exact result is not it.
-pub(super) const OFF: f64 = 1.0;
 
 /// A flow of which more than this part of the faces that moved is not the exact result is no result: what direct leaves
 /// unmoved is better than what is rough.
@@ -60,13 +57,14 @@ pub(super) fn close(
     let look = |surface: &ClosedSurface, ease: f64| {
         let result = TriangleMesh::new(surface.points.clone(), surface.faces.clone());
         let radius = |p| (field.radius)(p).min(ease * (field.pin_distance)(p));
-        roller.survey(&result, &radius, OFF * edge, threads())
+        roller.survey(&result, &radius, edge, threads())
     };
     let [by_direct, by_flow] = [look(&direct, 1.0), look(&flown, PIN_EASE)];
     let says = |survey: &Survey, crossings: usize| {
         format!(
-            "{} faces farther than {OFF} edge lengths from the exact result, at most {:.2}, {crossings} new crossings",
+            "{} faces farther than an edge length from the exact result ({} of them where the ball finds no rest), others at most {:.2}, and {crossings} new crossings",
             survey.off.len(),
+            survey.lost,
             survey.largest / edge
         )
     };
@@ -74,8 +72,11 @@ pub(super) fn close(
     let moved = flown.parents.iter().filter(|parent| **parent == NONE).count();
     let is_rough = by_flow.off.len() as f64 > MOST_OFF * moved as f64;
     // What direct left unmoved lies on the input, whose faces may be too large to tell in their middles what is undone.
-    let is_better =
-        !is_rough && flow_crossings == 0 && (by_flow.off.is_empty() || by_flow.off_area < by_direct.off_area);
+    // A flow that moved nothing found nothing out.
+    let is_better = moved > 0
+        && !is_rough
+        && flow_crossings == 0
+        && (by_flow.off.is_empty() || by_flow.off_area < by_direct.off_area);
     let (direct_says, flow_says) = (says(&by_direct, crossings), says(&by_flow, flow_crossings));
     if crossings > 0 && !is_better {
         let because = format!("direct leaves {direct_says}, the flow {flow_says}: nothing was moved");
@@ -104,14 +105,27 @@ fn flow_to_the_ball(mesh: &TriangleMesh, field: &Field, edge: f64) -> Result<Clo
     Ok(land_surface(mesh, &flown, &options)?)
 }
 
-/// How many pairs of faces pass through each other that did not before.
+/// How many pairs of faces pass through each other where none did before.
 fn new_crossings(before: &TriangleMesh, after: &ClosedSurface) -> usize {
     let mesh = TriangleMesh::new(after.points.clone(), after.faces.clone());
     let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
     let changed = (0u32..).zip(&after.parents).filter(|(_, parent)| **parent == NONE).map(|(k, _)| k);
-    let found = self_intersections_of(&mesh, &hierarchy, changed).len();
-    // Faces that crossed in the input may have been cut, and their parts cross.
-    if found == 0 || !self_intersections(before).is_empty() { 0 } else { found }
+    let found = self_intersections_of(&mesh, &hierarchy, changed);
+    if found.is_empty() {
+        return 0;
+    }
+    // Faces that crossed in the input may have been cut, and their parts cross, where they did.
+    let common = |mesh: &TriangleMesh, (f, g): (u32, u32)| {
+        let bounds = |[a, b, c]: [Point; 3]| (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+        let ((low, high), (l, h)) = (bounds(mesh.triangle(f as usize)), bounds(mesh.triangle(g as usize)));
+        (low.sup(&l), high.inf(&h))
+    };
+    let known: Vec<(Point, Point)> = self_intersections(before).into_iter().map(|pair| common(before, pair)).collect();
+    let is_known = |pair: &(u32, u32)| {
+        let (low, high) = common(&mesh, *pair);
+        known.iter().any(|(l, h)| (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k]))
+    };
+    found.iter().filter(|pair| !is_known(pair)).count()
 }
 
 /// The input, and that all of it is left to do.

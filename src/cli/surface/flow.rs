@@ -4,7 +4,7 @@ use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
-use super::choose::{OFF, threads};
+use super::choose::threads;
 use super::pins::Field;
 use super::work::{Done, Input};
 use super::{Step, WorkArgs};
@@ -66,6 +66,10 @@ pub(super) const PIN_EASE: f64 = 0.7;
 
 /// Time steps of flows that are looked at on the way.
 const FINE_TIME_STEP: f64 = 0.2;
+
+/// Steps shorter than this come to nothing in a lifetime; longer ones than that gain nothing.
+const SHORTEST_TIME_STEP: f64 = 1e-4;
+const LONGEST_TIME_STEP: f64 = 100.0;
 
 /// `--curvature`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -153,6 +157,9 @@ pub(super) fn run(
     if let Some(time) = flow.time.filter(|t| !(*t > 0.0 && t.is_finite())) {
         bail!("--time is {time}: it must be above zero; 0.1 is where edges have begun to fill");
     }
+    if let Some(step) = flow.time_step.filter(|step| !(SHORTEST_TIME_STEP..=LONGEST_TIME_STEP).contains(step)) {
+        bail!("--time-step is {step:e}: give one from {SHORTEST_TIME_STEP:e} to {LONGEST_TIME_STEP}");
+    }
     if let Some(frames) = flow.frames.filter(|n| !(1..=MOST_FRAMES).contains(n)) {
         bail!("--frames is {frames}: give a number from 1 to {MOST_FRAMES}");
     }
@@ -215,7 +222,7 @@ pub(super) fn run(
             let surface = TriangleMesh::new(result.points.clone(), result.faces.clone());
             let surface = if is_open { surface.reversed() } else { surface };
             let radius = |p| (field.radius)(p).min(PIN_EASE * (field.pin_distance)(p));
-            roller.survey(&surface, &radius, OFF * edge, threads())
+            roller.survey(&surface, &radius, edge, threads())
         });
         states.push(Done {
             points: result.points,

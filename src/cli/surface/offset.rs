@@ -107,6 +107,12 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
         bail!("--only-moved: no vertex of the mesh has moved");
     }
     let distance = args.distance.sign * args.distance.length.on(diagonal);
+    if distance.abs() > FARTHEST * diagonal {
+        bail!(
+            "a distance of {distance:e} on a mesh whose box has a diagonal of {diagonal}: give one up to {:e}",
+            FARTHEST * diagonal
+        );
+    }
     let thickness = if args.shell { Thickness::Shell } else { Thickness::Surface };
     let moved = offset_part(mesh, distance, thickness, is_wanted).with_context(|| args.input.display().to_string())?;
     let turned = turned(mesh, distance, is_wanted)?;
@@ -146,6 +152,9 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
 
 /// What `close`, `open` and `clopen` call the numbers that they write.
 const DISPLACEMENT: &str = "displacement";
+
+/// Distances beyond this, in diagonals of the mesh, are a slip.
+const FARTHEST: f64 = 1000.0;
 
 /// A vertex has moved if its displacement is above this, in diagonals of the mesh: less is rounding, where faces were only cut.
 const MOVED: f64 = 1e-6;

@@ -118,8 +118,11 @@ impl Report {
             let used = if choice.used == MethodArg::Flow { "flow" } else { "direct" };
             let _ = writeln!(text, "method {used}: {}", choice.because);
         }
-        if let Some(error) = self.largest_error_edge_lengths {
-            let _ = writeln!(text, "faces are within {error:.3} edge lengths of the exact result at their middles");
+        if let Some(error) = self.largest_error_edge_lengths.filter(|_| self.faces_kept < self.faces_in) {
+            let _ = writeln!(
+                text,
+                "faces that moved are within {error:.3} edge lengths of the exact result at their middles"
+            );
         }
         if let Some(flow) = &self.flow {
             let why = match flow.end {
@@ -161,6 +164,7 @@ impl Report {
                 Trouble::Tear => "the surface would tear".to_owned(),
                 Trouble::Fold => "the surface would fold".to_owned(),
                 Trouble::Lost => "the ball finds no rest, or the surface did not get there".to_owned(),
+                Trouble::Missed => "something between the corners of a face should have moved".to_owned(),
                 Trouble::Dip => format!("the surface would {beyond}"),
             };
             let _ = writeln!(

@@ -29,6 +29,9 @@ const LONGEST_EDGE: f64 = 1.0 / 40.0;
 /// convex hull but for a thousandth of the diagonal.
 const RADII: [f64; 2] = [1e-5, 100.0];
 
+/// Beyond these, in units of the mesh, products of lengths leave the range of numbers.
+const DIAGONALS: [f64; 2] = [1e-50, 1e50];
+
 /// Edges shorter than this, in diagonals, would make more triangles than a machine can hold.
 const SHORTEST_EDGE: f64 = 1e-5;
 
@@ -104,6 +107,15 @@ impl Input {
         }
         let allowed = found.iter().filter(|p| p.severity() == Severity::Allowed).copied().collect();
         let triangles = polygons.triangulated();
+        let diagonal = triangles.diagonal();
+        if !triangles.faces.is_empty() && !(DIAGONALS[0]..=DIAGONALS[1]).contains(&diagonal) {
+            bail!(
+                "{}: the diagonal of its box is {diagonal:e}: give it other units, so that it is from {:e} to {:e}",
+                path.display(),
+                DIAGONALS[0],
+                DIAGONALS[1]
+            );
+        }
         Ok(Input { polygons, triangles, allowed, repairs, scalar_name })
     }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::covering::{Covering, State, area_vector};
 use super::parallel;
+use super::remesh::LONGEST;
 use crate::mesh::{Hierarchy, Point, cross};
 
 /// The middle of an edge or a face may be this far from the closing, in edge lengths, where the surface is whole.
@@ -14,6 +15,9 @@ const CLOSE: f64 = 0.1;
 
 /// A face whose normal is farther from that of a ball at its corner than this cosine tells is folded.
 const FOLDED: f64 = -0.2;
+
+/// Balls whose normals agree by more than this cosine lie on the same side of a face.
+const ALIKE: f64 = 0.5;
 
 /// Faces may dip into the input by so many edge lengths.
 const DIP: f64 = 0.05;
@@ -30,6 +34,8 @@ pub enum Trouble {
     Lost,
     /// The surface would cut into the input.
     Dip,
+    /// Something between the corners of a coarse face should move, and did not.
+    Missed,
 }
 
 /// A place where the closing could not be had directly. What is around it was left as it was.
@@ -45,40 +51,57 @@ pub struct Conflict {
 pub(super) struct Found {
     pub faces: Vec<u32>,
     pub conflicts: Vec<Conflict>,
-    /// The largest distance from the closing of the middles of the others.
-    pub error: f64,
+    /// How far the others are from the closing in their middles.
+    pub errors: Vec<(u32, f64)>,
 }
 
 /// Looks at all faces that moved.
-pub(super) fn find(covering: &Covering, threads: usize) -> Found {
+pub(super) fn find(covering: &Covering) -> Found {
     let active = covering.active_faces();
-    let mut found = among(covering, &active, threads);
-    // A blunt end of a thin sheet turns its back on the balls of both sides: what is folded passes through something.
+    let mut found = among(covering, &active);
+    // A blunt end of a thin sheet turns its back on the balls of both sides, and is none of this. What is folded passes through
+    // something, or turns its back on balls that agree with each other.
     let numbers: Vec<u32> = covering.mesh.faces().collect();
     let faces: Vec<[u32; 3]> = numbers.iter().map(|&f| covering.mesh.face(f)).collect();
     let hierarchy = Hierarchy::new(&covering.mesh.points, &faces);
-    let crosses = parallel::map(&active, threads, |&f| {
+    let changed: Vec<u32> = numbers.iter().copied().filter(|&f| covering.is_touched(f)).collect();
+    let crosses = parallel::map(&changed, covering.threads, |&f| {
         let [a, b, c] = covering.mesh.triangle(f);
+        if is_folded(covering, f) && balls_agree(covering, f) {
+            return true;
+        }
         hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |k| {
             let g = numbers[k as usize];
             f != g && cross([a, b, c], covering.mesh.triangle(g))
         })
     });
     let mut bad: BTreeMap<u32, Conflict> = found.faces.into_iter().zip(found.conflicts).collect();
-    for (&f, _) in active.iter().zip(crosses).filter(|(_, crosses)| *crosses) {
+    for (&f, _) in changed.iter().zip(crosses).filter(|(_, crosses)| *crosses) {
         bad.entry(f).or_insert(Conflict { place: middle(covering.mesh.triangle(f)), trouble: Trouble::Fold });
+    }
+    let coarse: Vec<u32> = numbers.into_iter().filter(|&f| covering.is_coarse(f) && bad.get(&f).is_none()).collect();
+    let missed = parallel::map(&coarse, covering.threads, |&f| {
+        let stays = covering.mesh.face(f).iter().all(|&v| covering.is_kept(v)) && !covering.filled.contains(&f);
+        let radius = |p| covering.radius(p);
+        let look = || covering.ground.hidden_between(covering.mesh.triangle(f), &radius, covering.edge);
+        if stays { look() } else { None }
+    });
+    for (f, place) in coarse.into_iter().zip(missed) {
+        if let Some(place) = place {
+            bad.insert(f, Conflict { place, trouble: Trouble::Missed });
+        }
     }
     (found.faces, found.conflicts) = bad.into_iter().unzip();
     found
 }
 
 /// Looks at some faces.
-pub(super) fn among(covering: &Covering, faces: &[u32], threads: usize) -> Found {
-    let looked = parallel::map(faces, threads, |&f| look(covering, f));
-    let mut found = Found { faces: Vec::new(), conflicts: Vec::new(), error: 0.0 };
+pub(super) fn among(covering: &Covering, faces: &[u32]) -> Found {
+    let looked = parallel::map(faces, covering.threads, |&f| look(covering, f));
+    let mut found = Found { faces: Vec::new(), conflicts: Vec::new(), errors: Vec::new() };
     for (&f, seen) in faces.iter().zip(looked) {
         match seen {
-            Ok(error) => found.error = found.error.max(error),
+            Ok(error) => found.errors.push((f, error)),
             Err(trouble) => {
                 found.faces.push(f);
                 found.conflicts.push(Conflict { place: middle(covering.mesh.triangle(f)), trouble });
@@ -98,6 +121,12 @@ pub(super) fn is_folded(covering: &Covering, f: u32) -> bool {
     covering.agreement(covering.mesh.face(f), &area_vector(covering.mesh.triangle(f))) < FOLDED
 }
 
+/// Whether the balls that touch the corners of a face lie on the same side of it.
+fn balls_agree(covering: &Covering, f: u32) -> bool {
+    let rests: Vec<_> = covering.mesh.face(f).into_iter().flat_map(|v| covering.rests(v)).collect();
+    rests.len() > 1 && rests.iter().all(|a| rests.iter().all(|b| a.normal.dot(&b.normal) > ALIKE))
+}
+
 /// How far the middle of a face and those of its long edges are from the closing.
 fn look(covering: &Covering, f: u32) -> Result<f64, Trouble> {
     let corners = covering.mesh.face(f);
@@ -115,11 +144,7 @@ fn look(covering: &Covering, f: u32) -> Result<f64, Trouble> {
     if rests.is_empty() && !covering.filled.contains(&f) {
         return Ok(0.0);
     }
-    let long = covering
-        .mesh
-        .half_edges(f)
-        .into_iter()
-        .filter(|&h| covering.mesh.length(h) > super::remesh::LONGEST * covering.edge);
+    let long = covering.mesh.half_edges(f).into_iter().filter(|&h| covering.mesh.length(h) > LONGEST * covering.edge);
     let middles = long
         .map(|h| nalgebra::center(&covering.point(covering.mesh.origin(h)), &covering.point(covering.mesh.target(h))));
     let mut largest: f64 = 0.0;

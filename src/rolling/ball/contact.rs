@@ -56,7 +56,6 @@ pub(super) struct Rest {
 pub(super) const UNTOUCHED: [u32; 3] = [NONE; 3];
 
 impl Rest {
-    /// The point of the result that it touches.
     /// The ball of another radius that touches the same point.
     pub fn grown(&self, radius: f64) -> Rest {
         Rest { center: self.center + self.normal * (radius - self.radius), radius, ..*self }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::contact::{Ground, Rest, UNTOUCHED};
+use super::remesh::LONGEST;
 use crate::mesh::{HalfEdgeMesh, Point, Vector};
 
 /// What is known of a vertex.
@@ -89,11 +90,21 @@ impl Covering<'_> {
         edges.into_iter().map(|h| (self.mesh.length(h), h)).collect()
     }
 
+    /// Whether a face has sides longer than what is aimed at.
+    pub fn is_coarse(&self, f: u32) -> bool {
+        self.mesh.half_edges(f).iter().any(|&h| self.mesh.length(h) > LONGEST * self.edge)
+    }
+
     pub fn touch(&mut self, f: u32) {
         if self.touched.len() < self.mesh.face_count() {
             self.touched.resize(self.mesh.face_count(), true);
         }
         self.touched[f as usize] = true;
+    }
+
+    /// Whether a face is other than it was in the input.
+    pub fn is_touched(&self, f: u32) -> bool {
+        self.touched.get(f as usize).is_none_or(|touched| *touched)
     }
 
     /// Whether both faces at an edge fill gaps.
@@ -139,17 +150,22 @@ impl Covering<'_> {
         corners.iter().map(|&v| self.agrees(v, &unit)).fold(1.0, f64::min)
     }
 
-    /// Whether a triangle dips into the input, as far as its centre and the middles of its sides tell.
+    /// Whether a triangle dips into the input, or lies on it upside down, as far as its centre and the middles of its sides tell.
     pub fn dips(&self, [a, b, c]: [Point; 3]) -> bool {
         let center = Point::from((a.coords + b.coords + c.coords) / 3.0);
-        let middle = |p: &Point, q: &Point| nalgebra::center(p, q);
         let deepest = DIP * self.edge;
-        [center, middle(&a, &b), middle(&b, &c), middle(&c, &a)]
-            .into_iter()
-            .any(|p| self.ground.depth(p, self.edge) > deepest)
+        if let Some(hit) = self.ground.hierarchy.nearest(center, self.edge) {
+            let is_on_it = hit.distance <= deepest;
+            let below = self.ground.pseudo_normal(hit.face, hit.feature).dot(&area_vector([a, b, c])) < 0.0;
+            if is_on_it && below || !is_on_it && self.ground.is_inside(center, &hit) {
+                return true;
+            }
+        }
+        let middle = |p: &Point, q: &Point| nalgebra::center(p, q);
+        [middle(&a, &b), middle(&b, &c), middle(&c, &a)].into_iter().any(|p| self.ground.depth(p, self.edge) > deepest)
     }
 
-    /// Rolls the ball to the vertex from where it touched last, or from along `normal`.
+    /// Rolls the ball to the vertex from where it lies along `normal`.
     pub fn roll(&self, x: Point, normal: Vector) -> Option<Rest> {
         let r = self.radius(x);
         self.ground.rest(x, x + normal * r, r, UNTOUCHED)

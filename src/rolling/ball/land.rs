@@ -50,7 +50,7 @@ pub fn land_surface(
             }
         }
         covering.remesh(ROUNDS);
-        let found = conflicts::find(&covering, options.threads);
+        let found = conflicts::find(&covering);
         let bad: Vec<Point> = found
             .conflicts
             .iter()

@@ -26,8 +26,8 @@ impl Covering<'_> {
     /// Cuts out the faces that are not the closing, and fills what is left open. Whether anything was done.
     ///
     /// Gaps that have no rim in common are mended each for itself: one that cannot be is left as it is.
-    pub fn mend(&mut self, threads: usize) -> bool {
-        let torn = self.torn(threads);
+    pub fn mend(&mut self) -> bool {
+        let torn = self.torn();
         self.mend_these(torn)
     }
 
@@ -35,6 +35,17 @@ impl Covering<'_> {
     pub fn mend_jumps(&mut self) -> bool {
         let torn = self.active_faces().into_iter().filter(|&f| self.jumps(f)).collect();
         self.mend_these(torn)
+    }
+
+    /// The same for some faces with so many rings of moved ones around them.
+    pub fn mend_around(&mut self, faces: &[u32], rings: usize) -> bool {
+        let mut torn: BTreeSet<u32> = faces.iter().copied().collect();
+        for _ in 0..rings {
+            let corners: BTreeSet<u32> =
+                torn.iter().flat_map(|&f| self.mesh.face(f)).filter(|&v| !self.is_kept(v)).collect();
+            torn.extend(corners.into_iter().flat_map(|v| self.mesh.faces_at(v)));
+        }
+        self.mend_these(torn.into_iter().collect())
     }
 
     fn jumps(&self, f: u32) -> bool {
@@ -172,7 +183,7 @@ impl Covering<'_> {
     }
 
     /// The faces that are not the closing, as far as long edges and folds tell where to look.
-    fn torn(&self, threads: usize) -> Vec<u32> {
+    fn torn(&self) -> Vec<u32> {
         let (mut torn, others): (Vec<u32>, Vec<u32>) =
             self.active_faces().into_iter().partition(|&f| conflicts::is_folded(self, f));
         let is_suspect = |f: &u32| {
@@ -180,7 +191,7 @@ impl Covering<'_> {
                 || self.mesh.half_edges(*f).iter().any(|&h| self.mesh.length(h) > STRETCHED * self.edge)
         };
         let suspects: Vec<u32> = others.into_iter().filter(is_suspect).collect();
-        torn.extend(conflicts::among(self, &suspects, threads).faces);
+        torn.extend(conflicts::among(self, &suspects).faces);
         torn
     }
 

@@ -48,6 +48,9 @@ const LAST_ROUNDS: usize = 5;
 /// Tears of a level are mended so often.
 const MENDINGS: usize = 3;
 
+/// What is folded in the end is cut out with so many rings of faces at most.
+const RINGS: usize = 4;
+
 /// The radius grows by this much for every unit of distance from what is pinned.
 const EASE: f64 = 1.0;
 
@@ -59,11 +62,11 @@ const BESIDE: f64 = 1e-6;
 
 /// How a surface is closed.
 pub struct SurfaceOptions<'a> {
-    /// The radius of the ball at a place.
+    /// The radius of the ball at a place, in units of the surface. Nothing moves where it is 0 or below, or no number.
     pub radius: &'a (dyn Fn(Point) -> f64 + Sync),
     /// How far a place is from what is to stay as it is.
     pub pin_distance: &'a (dyn Fn(Point) -> f64 + Sync),
-    /// The length of edges where the surface moves.
+    /// The length of edges where the surface moves: above 0, and at most the radius, of which it should be a sixth or less.
     pub edge: f64,
     /// How many threads work; the result does not depend on it.
     pub threads: usize,
@@ -82,7 +85,7 @@ pub struct ClosedSurface {
     pub parents: Vec<u32>,
     /// What could not be done.
     pub conflicts: Vec<Conflict>,
-    /// The largest distance of the middle of an edge or a face from the closing, where it moved.
+    /// The largest distance of the middle of an edge or a face from the closing, where it moved; 0 where nothing did.
     pub error: f64,
 }
 
@@ -100,8 +103,26 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
     // Near what is pinned the ball gets smaller, down to nothing.
     let field = |p: Point| (options.radius)(p).min(EASE * (options.pin_distance)(p)).max(0.0);
     let covering = cover(input, &ground, &field, options);
-    let found = conflicts::find(&covering, options.threads);
-    Ok(result::result(input, &covering, &found.faces, found.conflicts, found.error))
+    let (covering, found) = mended(covering);
+    Ok(result::result(input, &covering, found))
+}
+
+/// The surface with what is not the closing cut out and filled anew, with more around it each time, as far as that makes it better.
+fn mended(mut covering: Covering) -> (Covering, conflicts::Found) {
+    let mut found = conflicts::find(&covering);
+    for rings in 1..=RINGS {
+        if found.faces.is_empty() {
+            break;
+        }
+        let mut other = covering.clone();
+        other.mend_around(&found.faces, rings);
+        other.remesh(ROUNDS);
+        let left = conflicts::find(&other);
+        if left.faces.len() < found.faces.len() {
+            (covering, found) = (other, left);
+        }
+    }
+    (covering, found)
 }
 
 /// The surface moved to where the ball touches.
@@ -142,7 +163,7 @@ fn cover<'a>(
         covering.mend_jumps();
         covering.remesh(if part >= 1.0 { LAST_ROUNDS } else { ROUNDS });
         for _ in 0..MENDINGS {
-            if !covering.mend(options.threads) {
+            if !covering.mend() {
                 break;
             }
             covering.remesh(ROUNDS);
@@ -151,6 +172,7 @@ fn cover<'a>(
             break;
         }
         (done, part) = (part, (part * GROWTH).min(1.0));
+        // The last step is not to be a small one.
         if part * GROWTH.sqrt() > 1.0 {
             part = 1.0;
         }

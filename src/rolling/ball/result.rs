@@ -1,21 +1,15 @@
 //! What comes out: the input as far as it is left, then what is new.
 
 use super::ClosedSurface;
-use super::conflicts::Conflict;
+use super::conflicts::Found;
 use super::covering::{Covering, State};
 use crate::mesh::{NONE, TriangleMesh};
 
-/// The surface, with the regions that hold one of the `bad` faces as they were in the input.
-pub(super) fn result(
-    input: &TriangleMesh,
-    covering: &Covering,
-    bad: &[u32],
-    conflicts: Vec<Conflict>,
-    error: f64,
-) -> ClosedSurface {
+/// The surface, with the regions that hold a face that was found bad as they were in the input.
+pub(super) fn result(input: &TriangleMesh, covering: &Covering, found: Found) -> ClosedSurface {
     let regions = regions(covering, input.faces.len());
     let mut is_bad = vec![false; input.faces.len()];
-    for &f in bad {
+    for &f in &found.faces {
         is_bad[regions[covering.parent[f as usize] as usize] as usize] = true;
     }
     let reverted = |f: u32| is_bad[regions[covering.parent[f as usize] as usize] as usize];
@@ -39,7 +33,9 @@ pub(super) fn result(
             is_original[v as usize] |= *parent != NONE || covering.state[v as usize] == State::Kept;
         }
     }
-    let mut closed = ClosedSurface { parents, conflicts, error, ..ClosedSurface::default() };
+    let errors = found.errors.iter().filter(|(f, _)| !reverted(*f)).map(|(_, error)| *error);
+    let error = errors.fold(0.0, f64::max);
+    let mut closed = ClosedSurface { parents, conflicts: found.conflicts, error, ..ClosedSurface::default() };
     let mut number = vec![NONE; is_used.len()];
     for v in 0..is_used.len() {
         let is_input = v < input.points.len();
@@ -71,12 +67,11 @@ fn regions(covering: &Covering, count: usize) -> Vec<u32> {
         let (f, g) = (top(&mut above, f), top(&mut above, g));
         above[f.max(g) as usize] = f.min(g);
     };
-    let is_touched = |f: u32| covering.touched.get(f as usize).is_none_or(|touched| *touched);
     for (mesh, parent) in [(covering.ground.mesh, None), (&covering.mesh, Some(&covering.parent))] {
         let of = |f: u32| parent.map_or(f, |parent| parent[f as usize]);
-        for f in mesh.faces().filter(|&f| is_touched(f)) {
+        for f in mesh.faces().filter(|&f| covering.is_touched(f)) {
             for t in mesh.half_edges(f).into_iter().filter_map(|h| mesh.twin(h)) {
-                if is_touched(mesh.face_of(t)) {
+                if covering.is_touched(mesh.face_of(t)) {
                     join(of(f), of(mesh.face_of(t)));
                 }
             }

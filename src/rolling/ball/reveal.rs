@@ -15,12 +15,9 @@ impl Roll {
     /// Puts vertices where the ball cannot touch coarse faces, and cuts what is around them down to the edge length. They join
     /// those that may move.
     pub fn reveal(&mut self, covering: &mut Covering, moving: &mut Vec<u32>) {
-        let coarse = |covering: &Covering, f: u32| {
-            covering.mesh.half_edges(f).iter().any(|&h| covering.mesh.length(h) > remesh::LONGEST * covering.edge)
-        };
         let mut is_hidden: Vec<bool> = vec![false; covering.state.len()];
         let at_coarse: Vec<u32> =
-            moving.iter().copied().filter(|&v| covering.mesh.faces_at(v).any(|f| coarse(covering, f))).collect();
+            moving.iter().copied().filter(|&v| covering.mesh.faces_at(v).any(|f| covering.is_coarse(f))).collect();
         self.look(covering, &at_coarse, &mut is_hidden);
         let mut fresh = at_coarse;
         let mut seen = 0;
@@ -30,8 +27,8 @@ impl Roll {
             let faces: Vec<u32> = covering
                 .mesh
                 .faces()
-                .filter(|&f| coarse(covering, f) && !covering.mesh.face(f).iter().any(|&v| is_hidden[v as usize]))
-                .filter(|&f| seen == 0 || covering.touched.get(f as usize).is_none_or(|touched| *touched))
+                .filter(|&f| covering.is_coarse(f) && !covering.mesh.face(f).iter().any(|&v| is_hidden[v as usize]))
+                .filter(|&f| seen == 0 || covering.is_touched(f))
                 .collect();
             seen += 1;
             let found = parallel::map(&faces, covering.threads, |&f| {

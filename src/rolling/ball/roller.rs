@@ -1,6 +1,7 @@
 //! The ball by itself: where it comes to rest at a point, for whoever moves the points.
 
 use super::contact::{Ground, UNTOUCHED};
+use super::remesh::LONGEST;
 use super::{BESIDE, TOUCHING, parallel};
 use crate::mesh::{HalfEdgeMesh, Hierarchy, NotManifold, Point, TriangleMesh, Vector};
 
@@ -55,43 +56,49 @@ impl Roller {
 /// What a ball finds on a surface that is to be the closing of the one it rolls on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Survey {
-    /// The largest distance of the middle of a face from the closing.
+    /// The largest distance from the closing that the ball found.
     pub largest: f64,
-    /// The middles of faces that are farther from it than was allowed, and where the ball finds no rest, in the order of the faces.
+    /// Places in faces that are farther from it than was allowed, in the order of the faces.
     pub off: Vec<Point>,
+    /// How many of them are where the ball finds no rest: nobody can tell how far they are.
+    pub lost: usize,
     /// The area of those faces.
     pub off_area: f64,
 }
 
 impl Roller {
-    /// Asks at the middle of every face how far it is from the closing by a ball of the radius at the place, where that is above
-    /// zero. What is not farther than `allowed` is not told.
+    /// Asks in every face how far it is from the closing by a ball of the radius at the place, where that is above zero: at its
+    /// middle, or all over it where it has sides longer than `edge` by half. What is not farther than `edge` is not told.
     pub fn survey(
         &self,
         surface: &TriangleMesh,
         radius: &(dyn Fn(Point) -> f64 + Sync),
-        allowed: f64,
+        edge: f64,
         threads: usize,
     ) -> Survey {
         let faces: Vec<u32> = (0..surface.faces.len() as u32).collect();
+        let ground = Ground { mesh: &self.mesh, hierarchy: &self.hierarchy };
         let looked = parallel::map(&faces, threads, |&f| {
             let doubled = surface.area_vector(f as usize);
+            let normal = doubled.try_normalize(0.0)?;
             let [a, b, c] = surface.triangle(f as usize);
-            let middle = Point::from((a.coords + b.coords + c.coords) / 3.0);
-            let r = radius(middle);
-            let (Some(normal), true) = (doubled.try_normalize(0.0), r > 0.0) else { return (middle, 0.0, 0.0) };
-            let gap = self.touch(middle, normal, r).map_or(f64::INFINITY, |touch| touch.gap.abs());
-            (middle, gap, 0.5 * doubled.norm())
+            let is_coarse = [b - a, c - b, a - c].iter().any(|side| side.norm() > LONGEST * edge);
+            let place = if is_coarse {
+                ground.hidden_between([a, b, c], &|p| radius(p), edge)?
+            } else {
+                Point::from((a.coords + b.coords + c.coords) / 3.0)
+            };
+            let r = radius(place);
+            (r > 0.0).then(|| (place, self.touch(place, normal, r).map(|touch| touch.gap.abs()), 0.5 * doubled.norm()))
         });
         let mut survey = Survey::default();
-        for (middle, gap, area) in looked {
-            if gap > allowed {
-                survey.off.push(middle);
+        for (place, gap, area) in looked.into_iter().flatten() {
+            if gap.is_none_or(|gap| gap > edge) {
+                survey.off.push(place);
                 survey.off_area += area;
             }
-            if gap.is_finite() {
-                survey.largest = survey.largest.max(gap);
-            }
+            survey.lost += usize::from(gap.is_none());
+            survey.largest = survey.largest.max(gap.unwrap_or(0.0));
         }
         survey
     }
