@@ -9,7 +9,7 @@ use std::process::Output;
 
 use assert_cmd::Command;
 use clopen::io::mesh::{MeshFormat, read, write};
-use clopen::mesh::{PolygonMesh, Vector, self_intersections};
+use clopen::mesh::{Point, PolygonMesh, Vector, self_intersections};
 use serde_json::Value;
 
 fn folder() -> tempfile::TempDir {
@@ -355,17 +355,33 @@ fn frozen_surfaces_never_pass_through_themselves() {
 }
 
 #[test]
-fn what_no_method_can_do_is_told_and_crosses_nothing() {
+fn what_no_method_can_do_is_told_and_what_one_can_is_done() {
     let folder = folder();
-    // A plate with a tunnel that the ball cannot pass: its closing has no tunnel, a surface that flows always has.
-    let plate = solids::blocks([9, 9, 4], 0.1, |[x, y, _]| x != 4 || y != 4);
-    fs::write(folder.path().join("plate.obj"), write(&plate, MeshFormat::Obj)).unwrap();
-    let output = surface(folder.path(), "close plate.obj -r .2 -o out.obj --format json");
+    // A small prism of few faces that hovers over a large one: rims that stay lie far apart across the gap.
+    let prism = |[x, y, z]: [f64; 3], side: f64, height: f64| {
+        let base = [[0.0, 0.0], [side, 0.0], [side / 2.0, 0.866 * side]];
+        [z, z + height].into_iter().flat_map(move |z| base.map(|[a, b]| Point::new(x + a, y + b, z)))
+    };
+    let mut meet = PolygonMesh::default();
+    for (first, points) in [(0, prism([0.0; 3], 1.0, 0.3)), (6, prism([0.45, 0.25, 0.39], 0.1, 0.3))] {
+        meet.points.extend(points);
+        for face in [[2, 1, 0].as_slice(), &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]] {
+            meet.push(&face.iter().map(|v| v + first).collect::<Vec<u32>>());
+        }
+    }
+    fs::write(folder.path().join("meet.obj"), write(&meet, MeshFormat::Obj)).unwrap();
+    let output = surface(folder.path(), "close meet.obj -r .05 -o out.obj --format json");
     assert_eq!(output.status.code(), Some(1), "{}", words(&output));
     let report = json(&output);
     assert!(!report["conflicts"].as_array().unwrap().is_empty());
     let choice = &report["choices"][0];
     assert!(choice["because"].as_str().unwrap().contains("farther than"), "{choice}");
+    assert!(self_intersections(&mesh(folder.path(), "out.obj").triangulated()).is_empty());
+    // A plate with a tunnel that the ball cannot pass: its closing has no tunnel. A surface that flows always has one.
+    let plate = solids::blocks([9, 9, 4], 0.1, |[x, y, _]| x != 4 || y != 4);
+    fs::write(folder.path().join("plate.obj"), write(&plate, MeshFormat::Obj)).unwrap();
+    let report = json(&done(folder.path(), "close plate.obj -r .2 -o out.obj --format json"));
+    assert_eq!(report["choices"][0]["used"], "direct");
     assert!(self_intersections(&mesh(folder.path(), "out.obj").triangulated()).is_empty());
     let report = json(&done(folder.path(), "close bracket.obj -r .3 -o out.obj --format json"));
     assert_eq!(report["choices"][0]["used"], "direct");

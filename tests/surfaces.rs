@@ -52,7 +52,7 @@ fn a_concave_edge_gets_a_fillet_of_the_radius() {
     let input = triangles(&solids::bracket());
     let r = 0.3;
     let mut means = Vec::new();
-    for edge in [0.06, 0.04] {
+    for edge in [0.06, 0.02] {
         let closed = close(&input, r, edge);
         check(&input, &closed);
         assert!(closed.conflicts.is_empty(), "{:?}", closed.conflicts.first());
@@ -82,7 +82,7 @@ fn a_concave_edge_gets_a_fillet_of_the_radius() {
         means.push(offs.iter().sum::<f64>() / offs.len() as f64 * edge);
         assert!(offs.iter().all(|o| *o < 0.05), "{:?}", offs.iter().copied().fold(0.0, f64::max));
     }
-    assert!(means[1] < 0.55 * means[0], "the error falls with the square of the edge: {means:?}");
+    assert!(means[1] < 0.15 * means[0], "the error falls with the square of the edge: {means:?}");
 }
 
 #[test]
@@ -155,12 +155,34 @@ fn what_is_convex_comes_out_bit_for_bit() {
 
 #[test]
 fn the_result_does_not_hang_on_the_threads() {
-    let input = triangles(&solids::plus());
-    let [one, two, five] = [1, 2, 5].map(|threads| close_with(&input, 0.3, 0.05, threads, &|_| ANYWHERE));
-    for other in [two, five] {
-        assert_eq!(one.points, other.points);
-        assert_eq!((&one.faces, &one.parents, &one.origins), (&other.faces, &other.parents, &other.origins));
+    // The second has a gap that is cut out and filled.
+    let gap = solids::blocks([16, 16, 10], 0.1, |[x, _, z]| x < 3 || !(4..=5).contains(&z));
+    for input in [solids::plus(), gap].map(|mesh| triangles(&mesh)) {
+        let [one, two, five] = [1, 2, 5].map(|threads| close_with(&input, 0.3, 0.05, threads, &|_| ANYWHERE));
+        assert!(one.origins.contains(&NONE));
+        for other in [two, five] {
+            assert_eq!(one.points, other.points);
+            assert_eq!((&one.faces, &one.parents, &one.origins), (&other.faces, &other.parents, &other.origins));
+        }
     }
+}
+
+#[test]
+fn a_corner_of_coarse_faces_gets_three_fillets_and_a_piece_of_the_ball() {
+    // A cube without one of its eight parts, each face of which is a square as large as the part.
+    let input = triangles(&solids::blocks([2, 2, 2], 1.0, |cell| cell != [1, 1, 1]));
+    let r = 0.4;
+    let closed = close(&input, r, 0.05);
+    check(&input, &closed);
+    assert!(closed.conflicts.is_empty(), "{:?}", closed.conflicts.first());
+    let center = Point::new(1.0 + r, 1.0 + r, 1.0 + r);
+    let moved = closed.points.iter().zip(&closed.origins).filter(|(p, v)| **v == NONE && p.coords.min() > 1.0 + 1e-9);
+    let mut in_corner = 0;
+    for (p, _) in moved.filter(|(p, _)| p.coords.max() < 1.0 + r) {
+        in_corner += 1;
+        assert!(((p - center).norm() / r - 1.0).abs() < 1e-9, "{p}");
+    }
+    assert!(in_corner > 10);
 }
 
 #[test]
@@ -170,6 +192,7 @@ fn a_closing_contains_its_input_and_does_not_cross_itself() {
         let r = 0.04 * input.diagonal();
         let closed = close(&input, r, r / 6.0);
         check(&input, &closed);
+        assert!(closed.conflicts.is_empty(), "{name} {:?}", closed.conflicts.first());
         let result = TriangleMesh::new(closed.points.clone(), closed.faces.clone());
         assert!(result.volume() >= input.volume() * (1.0 - 1e-9), "{name}");
         assert_eq!(self_intersections(&result).len(), self_intersections(&input).len(), "{name}");
@@ -189,14 +212,23 @@ fn what_is_pinned_stays_and_the_rest_is_closed() {
 }
 
 #[test]
-fn a_gap_that_the_ball_would_tear_is_told_and_left_alone() {
+fn a_gap_open_on_three_sides_is_shut() {
     // Two plates with a gap that is open on three sides, joined along the fourth.
-    let input = triangles(&solids::blocks([16, 16, 10], 0.1, |[x, _, z]| x < 3 || !(4..=5).contains(&z)));
+    let blocks =
+        |gap: bool| triangles(&solids::blocks([16, 16, 10], 0.1, |[x, _, z]| !gap || x < 3 || !(4..=5).contains(&z)));
+    let input = blocks(true);
     let closed = close(&input, 0.3, 0.05);
     check(&input, &closed);
+    assert!(closed.conflicts.is_empty(), "{:?}", closed.conflicts.first());
     let result = TriangleMesh::new(closed.points.clone(), closed.faces.clone());
-    assert!(result.volume() >= input.volume() * (1.0 - 1e-9));
-    assert!(!closed.conflicts.is_empty(), "a gap open on three sides has no closing without a tear");
+    assert!(self_intersections(&result).is_empty());
+    assert_eq!(euler(&closed.faces), 2);
+    // The ball rests on both edges of the gap: at its mouth a groove is left, as deep as a segment of the ball is high.
+    let (r, half) = (0.3f64, 0.1f64);
+    let segment = r * r * (half / r).asin() - half * (r * r - half * half).sqrt();
+    let grooves = segment * (1.6 + 2.0 * 1.3);
+    let filled = (result.volume() - input.volume()) / (blocks(false).volume() - input.volume() - grooves);
+    assert!((filled - 1.0).abs() < 0.01, "{filled}");
 }
 
 /// Vertices less edges plus faces: 2 for a ball, 0 with a handle.
@@ -231,8 +263,5 @@ fn a_window_narrower_than_the_ball_is_shut() {
         .filter(|p| (p.x - 1.0).hypot(p.y - 1.0) < 0.05 && p.z > 0.15)
         .map(|p| p.z)
         .fold(f64::INFINITY, f64::min);
-    let mut near: Vec<&Point> = closed.points.iter().filter(|p| (p.x - 1.0).hypot(p.y - 1.0) < 0.15).collect();
-    near.sort_by(|a, b| (a.x - 1.0).hypot(a.y - 1.0).total_cmp(&(b.x - 1.0).hypot(b.y - 1.0)));
-    eprintln!("{:?}", &near[..near.len().min(12)]);
     assert!((0.3 - lowest - dip).abs() < 0.01, "{lowest}");
 }

@@ -57,29 +57,43 @@ pub(super) struct Found {
 
 /// Looks at all faces that moved.
 pub(super) fn find(covering: &Covering) -> Found {
-    let active = covering.active_faces();
+    find_since(covering, None)
+}
+
+/// The same where the surface has been looked at before: what is as it was and was good still is.
+pub(super) fn find_since(covering: &Covering, before: Option<(&Covering, &Found)>) -> Found {
+    let is_good = known_good(covering, before);
+    let active: Vec<u32> = covering.active_faces().into_iter().filter(|&f| !is_good[f as usize]).collect();
     let mut found = among(covering, &active);
+    found.errors.extend(before.into_iter().flat_map(|(_, b)| &b.errors).filter(|(f, _)| is_good[*f as usize]));
     // A blunt end of a thin sheet turns its back on the balls of both sides, and is none of this. What is folded passes through
     // something, or turns its back on balls that agree with each other.
     let numbers: Vec<u32> = covering.mesh.faces().collect();
     let faces: Vec<[u32; 3]> = numbers.iter().map(|&f| covering.mesh.face(f)).collect();
     let hierarchy = Hierarchy::new(&covering.mesh.points, &faces);
-    let changed: Vec<u32> = numbers.iter().copied().filter(|&f| covering.is_touched(f)).collect();
-    let crosses = parallel::map(&changed, covering.threads, |&f| {
+    let changed: Vec<u32> =
+        numbers.iter().copied().filter(|&f| covering.is_touched(f) && !is_good[f as usize]).collect();
+    let crossed = parallel::map(&changed, covering.threads, |&f| {
         let [a, b, c] = covering.mesh.triangle(f);
+        let mut crossed = Vec::new();
         if is_folded(covering, f) && balls_agree(covering, f) {
-            return true;
+            crossed.push(f);
         }
         hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |k| {
             let g = numbers[k as usize];
-            f != g && cross([a, b, c], covering.mesh.triangle(g))
-        })
+            if f != g && cross([a, b, c], covering.mesh.triangle(g)) {
+                crossed.extend([f, g].into_iter().filter(|&f| covering.is_touched(f)));
+            }
+            false
+        });
+        crossed
     });
     let mut bad: BTreeMap<u32, Conflict> = found.faces.into_iter().zip(found.conflicts).collect();
-    for (&f, _) in changed.iter().zip(crosses).filter(|(_, crosses)| *crosses) {
+    for f in crossed.into_iter().flatten() {
         bad.entry(f).or_insert(Conflict { place: middle(covering.mesh.triangle(f)), trouble: Trouble::Fold });
     }
-    let coarse: Vec<u32> = numbers.into_iter().filter(|&f| covering.is_coarse(f) && bad.get(&f).is_none()).collect();
+    let may_miss = |f: u32| covering.is_coarse(f) && !bad.contains_key(&f) && !is_good[f as usize];
+    let coarse: Vec<u32> = numbers.into_iter().filter(|&f| may_miss(f)).collect();
     let missed = parallel::map(&coarse, covering.threads, |&f| {
         let stays = covering.mesh.face(f).iter().all(|&v| covering.is_kept(v)) && !covering.filled.contains(&f);
         let radius = |p| covering.radius(p);
@@ -91,8 +105,25 @@ pub(super) fn find(covering: &Covering) -> Found {
             bad.insert(f, Conflict { place, trouble: Trouble::Missed });
         }
     }
+    found.errors.retain(|(f, _)| !bad.contains_key(f));
     (found.faces, found.conflicts) = bad.into_iter().unzip();
     found
+}
+
+/// The faces that are as they were when they were good.
+fn known_good(covering: &Covering, before: Option<(&Covering, &Found)>) -> Vec<bool> {
+    let mut is_good = vec![false; covering.mesh.face_count()];
+    let Some((earlier, found)) = before else { return is_good };
+    let same = |v: u32| {
+        let same = |state: Option<&State>| state == Some(&covering.state[v as usize]);
+        same(earlier.state.get(v as usize)) && earlier.point(v) == covering.point(v)
+    };
+    for f in earlier.mesh.faces().filter(|&f| covering.mesh.has_face(f)) {
+        is_good[f as usize] =
+            earlier.mesh.face(f) == covering.mesh.face(f) && covering.mesh.face(f).into_iter().all(same);
+    }
+    found.faces.iter().for_each(|&f| is_good[f as usize] = false);
+    is_good
 }
 
 /// Looks at some faces.
@@ -139,7 +170,7 @@ fn look(covering: &Covering, f: u32) -> Result<f64, Trouble> {
         return Err(Trouble::Dip);
     }
     // Balls at the corners may be those of different sides: the nearest that one of them rolls to counts, or one from above.
-    let Some(normal) = area_vector(triangle).try_normalize(0.0) else { return Ok(0.0) };
+    let normal = area_vector(triangle).try_normalize(0.0);
     let rests: Vec<_> = corners.iter().filter_map(|&v| covering.rest(v)).collect();
     if rests.is_empty() && !covering.filled.contains(&f) {
         return Ok(0.0);
@@ -152,7 +183,8 @@ fn look(covering: &Covering, f: u32) -> Result<f64, Trouble> {
         let r = covering.radius(p);
         let mut least = f64::INFINITY;
         let guesses = rests.iter().map(|rest| (rest.center, rest.contacts));
-        for (start, contacts) in guesses.chain([(p + normal * r, super::contact::UNTOUCHED)]) {
+        let above = normal.map(|normal| (p + normal * r, super::contact::UNTOUCHED));
+        for (start, contacts) in guesses.chain(above) {
             if let Some(found) = covering.ground.rest(p, start, r, contacts) {
                 least = least.min((found.point() - p).norm());
             }

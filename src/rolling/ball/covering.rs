@@ -39,6 +39,8 @@ pub(super) struct Covering<'a> {
     pub edge: f64,
     /// How many threads work.
     pub threads: usize,
+    /// Up to how many vertices long edges are split boldly, if at all.
+    pub bold: Option<usize>,
 }
 
 impl Covering<'_> {

@@ -94,6 +94,7 @@ fn start<'a>(
         field,
         edge: options.edge,
         threads: options.threads,
+        bold: None,
     };
     let moved: Vec<u32> = (0u32..).zip(&near.origins).filter(|(_, origin)| **origin == NONE).map(|(v, _)| v).collect();
     let rests = parallel::map(&moved, options.threads, |&v| {

@@ -22,30 +22,39 @@ const STRETCHED: f64 = 2.0;
 /// Rims are joined over so many edge lengths at least, however small the ball.
 const NARROW: f64 = 3.0;
 
+/// Which rims are joined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rims {
+    /// Those of vertices that moved, over the radius of the ball.
+    Moved,
+    /// Those of vertices that stay, too, over gaps as wide as the ball.
+    All,
+}
+
 impl Covering<'_> {
     /// Cuts out the faces that are not the closing, and fills what is left open. Whether anything was done.
     ///
     /// Gaps that have no rim in common are mended each for itself: one that cannot be is left as it is.
     pub fn mend(&mut self) -> bool {
         let torn = self.torn();
-        self.mend_these(torn)
+        self.mend_these(torn, Rims::Moved)
     }
 
     /// The same for what is known to be torn as soon as the vertices have gone to their balls.
     pub fn mend_jumps(&mut self) -> bool {
         let torn = self.active_faces().into_iter().filter(|&f| self.jumps(f)).collect();
-        self.mend_these(torn)
+        self.mend_these(torn, Rims::Moved)
     }
 
     /// The same for some faces with so many rings of moved ones around them.
-    pub fn mend_around(&mut self, faces: &[u32], rings: usize) -> bool {
+    pub fn mend_around(&mut self, faces: &[u32], rings: usize, rims: Rims) -> bool {
         let mut torn: BTreeSet<u32> = faces.iter().copied().collect();
         for _ in 0..rings {
-            let corners: BTreeSet<u32> =
-                torn.iter().flat_map(|&f| self.mesh.face(f)).filter(|&v| !self.is_kept(v)).collect();
-            torn.extend(corners.into_iter().flat_map(|v| self.mesh.faces_at(v)));
+            let corners: BTreeSet<u32> = torn.iter().flat_map(|&f| self.mesh.face(f)).collect();
+            let around = corners.into_iter().flat_map(|v| self.mesh.faces_at(v).map(move |f| (v, f)));
+            torn.extend(around.filter(|&(v, f)| !self.is_kept(v) || self.filled.contains(&f)).map(|(_, f)| f));
         }
-        self.mend_these(torn.into_iter().collect())
+        self.mend_these(torn.into_iter().collect(), rims)
     }
 
     fn jumps(&self, f: u32) -> bool {
@@ -57,14 +66,17 @@ impl Covering<'_> {
             })
     }
 
-    fn mend_these(&mut self, torn: Vec<u32>) -> bool {
+    fn mend_these(&mut self, torn: Vec<u32>, which: Rims) -> bool {
         if torn.is_empty() {
             return false;
         }
         let gone = self.cut(torn);
         let Some(rims) = self.rims(&gone) else { return false };
-        let corner =
-            |&v: &u32| Corner { vertex: v, point: self.point(v), normal: self.rest(v).map(|rest| rest.normal) };
+        let normal = |v: u32| {
+            let moved = self.rest(v).map(|rest| rest.normal);
+            if which == Rims::All { moved.or_else(|| self.normal_beside(v, &gone)) } else { moved }
+        };
+        let corner = |&v: &u32| Corner { vertex: v, point: self.point(v), normal: normal(v) };
         let corners: Vec<Vec<Corner>> = rims.iter().map(|rim| rim.iter().map(corner).collect()).collect();
         let is_edge = |a: u32, b: u32| {
             let has = |a, b| {
@@ -74,7 +86,8 @@ impl Covering<'_> {
             has(a, b) || has(b, a)
         };
         let radii = corners.iter().flatten().map(|c| self.radius(c.point));
-        let reach = radii.fold(NARROW * self.edge, f64::max);
+        let width = if which == Rims::All { 2.0 } else { 1.0 };
+        let reach = width * radii.fold(NARROW * self.edge, f64::max);
         let strips = zip(&corners, reach, self.edge, is_edge);
         let mut mended = false;
         for (faces, polygons) in self.gaps(&gone, &strips) {
@@ -96,6 +109,12 @@ impl Covering<'_> {
             mended |= is_put;
         }
         mended
+    }
+
+    /// The normal at a vertex beside what goes, of the faces that stay.
+    fn normal_beside(&self, v: u32, gone: &BTreeSet<u32>) -> Option<Vector> {
+        let stay = self.mesh.faces_at(v).filter(|f| !gone.contains(f));
+        stay.map(|f| self.mesh.area_vector(f)).sum::<Vector>().try_normalize(0.0)
     }
 
     /// A point of the closing in the middle of a polygon.
@@ -170,10 +189,11 @@ impl Covering<'_> {
 
     /// What goes with the faces that are torn, so that every vertex beside it keeps a single fan of faces.
     fn cut(&self, torn: Vec<u32>) -> BTreeSet<u32> {
-        let mut gone: BTreeSet<u32> = torn.into_iter().collect();
+        let torn: BTreeSet<u32> = torn.into_iter().collect();
+        let mut gone = torn.clone();
         let mut spared: BTreeSet<u32> = BTreeSet::new();
         loop {
-            self.widen(&mut gone, &mut spared);
+            self.widen(&torn, &mut gone, &mut spared);
             let count = gone.len();
             self.take_islands(&mut gone);
             if gone.len() == count {
@@ -197,7 +217,7 @@ impl Covering<'_> {
 
     /// Takes so many faces more that every vertex beside what goes keeps one fan of faces; where that would take what never
     /// moved, its faces are spared.
-    fn widen(&self, gone: &mut BTreeSet<u32>, spared: &mut BTreeSet<u32>) {
+    fn widen(&self, torn: &BTreeSet<u32>, gone: &mut BTreeSet<u32>, spared: &mut BTreeSet<u32>) {
         let mut open: Vec<u32> = gone.iter().flat_map(|&f| self.mesh.face(f)).collect();
         while let Some(v) = open.pop() {
             let faces: Vec<u32> = self.mesh.faces_at(v).collect();
@@ -208,7 +228,8 @@ impl Covering<'_> {
             if starts.count() < 2 {
                 continue;
             }
-            let may_go = |f: &u32| !self.mesh.face(*f).iter().all(|&v| self.is_kept(v)) && !spared.contains(f);
+            let moved = |f: &u32| self.filled.contains(f) || !self.mesh.face(*f).iter().all(|&v| self.is_kept(v));
+            let may_go = |f: &u32| (moved(f) || torn.contains(f)) && !spared.contains(f);
             if faces.iter().all(may_go) {
                 gone.extend(&faces);
             } else {

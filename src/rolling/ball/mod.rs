@@ -16,6 +16,7 @@ mod mend;
 mod parallel;
 mod remesh;
 mod result;
+mod retry;
 mod reveal;
 mod ridge;
 mod roll;
@@ -26,6 +27,7 @@ pub use conflicts::{Conflict, Trouble};
 use contact::Ground;
 use covering::{Covering, State};
 pub use land::land_surface;
+use retry::retry;
 use roll::{Roll, stretches};
 pub use roller::{Roller, Survey, Touch};
 
@@ -48,8 +50,11 @@ const LAST_ROUNDS: usize = 5;
 /// Tears of a level are mended so often.
 const MENDINGS: usize = 3;
 
-/// What is folded in the end is cut out with so many rings of faces at most.
-const RINGS: usize = 4;
+/// Where more than this part of the faces that moved is not the closing, a bold try would not help.
+const HOPELESS: f64 = 0.5;
+
+/// A bold try may make so many times the vertices there were.
+const MOST_VERTICES: usize = 4;
 
 /// The radius grows by this much for every unit of distance from what is pinned.
 const EASE: f64 = 1.0;
@@ -102,35 +107,27 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
     let ground = Ground { mesh: &mesh, hierarchy: &hierarchy };
     // Near what is pinned the ball gets smaller, down to nothing.
     let field = |p: Point| (options.radius)(p).min(EASE * (options.pin_distance)(p)).max(0.0);
-    let covering = cover(input, &ground, &field, options);
-    let (covering, found) = mended(covering);
+    let careful = retry(cover(input, &ground, &field, options, None));
+    let moved = careful.0.active_faces().len() as f64;
+    if careful.1.faces.is_empty() || careful.1.faces.len() as f64 > HOPELESS * moved {
+        return Ok(result::result(input, &careful.0, careful.1));
+    }
+    let most = MOST_VERTICES * careful.0.state.len();
+    let bold = retry(cover(input, &ground, &field, options, Some(most)));
+    let (covering, found) = if bold.1.faces.len() < careful.1.faces.len() { bold } else { careful };
     Ok(result::result(input, &covering, found))
 }
 
-/// The surface with what is not the closing cut out and filled anew, with more around it each time, as far as that makes it better.
-fn mended(mut covering: Covering) -> (Covering, conflicts::Found) {
-    let mut found = conflicts::find(&covering);
-    for rings in 1..=RINGS {
-        if found.faces.is_empty() {
-            break;
-        }
-        let mut other = covering.clone();
-        other.mend_around(&found.faces, rings);
-        other.remesh(ROUNDS);
-        let left = conflicts::find(&other);
-        if left.faces.len() < found.faces.len() {
-            (covering, found) = (other, left);
-        }
-    }
-    (covering, found)
-}
-
 /// The surface moved to where the ball touches.
+///
+/// A bold try splits long edges even where faces turn their backs on the ball for a while, as long as there are not too many
+/// vertices: what is folded then unfolds in the end, or is cut out. Careful ones get stuck where gaps with wide mouths are filled.
 fn cover<'a>(
     input: &TriangleMesh,
     ground: &'a Ground<'a>,
     field: &'a (dyn Fn(Point) -> f64 + Sync),
     options: &SurfaceOptions,
+    bold: Option<usize>,
 ) -> Covering<'a> {
     let mut covering = Covering {
         ground,
@@ -143,6 +140,7 @@ fn cover<'a>(
         field,
         edge: options.edge,
         threads: options.threads,
+        bold,
     };
     let mut roll = Roll { normals: input.vertex_normals() };
     // What the whole ball can touch, smaller ones can.
@@ -177,5 +175,6 @@ fn cover<'a>(
             part = 1.0;
         }
     }
+    covering.bold = None;
     covering
 }

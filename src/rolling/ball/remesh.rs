@@ -21,6 +21,10 @@ const DISAGREES: f64 = 0.5;
 /// Parts of a face that is cut may agree this little with their balls, or as little as the whole does.
 const TURNS: f64 = 0.2;
 
+/// The same for edges longer than [`LONG`] edge lengths in a bold try: they may fold, to unfold when they are split on.
+const BOLD_TURNS: f64 = -0.5;
+const LONG: f64 = 2.0;
+
 /// Vertices of triangles that are worse than this, or agree less with their balls, are relaxed.
 const RELAXED: f64 = 0.6;
 
@@ -110,6 +114,8 @@ impl Covering<'_> {
             State::Ridge(a, b) => a.normal.dot(unit).max(b.normal.dot(unit)),
             _ => 1.0,
         };
+        let is_bold = self.bold.is_some_and(|most| self.state.len() < most) && self.mesh.length(h) > LONG * self.edge;
+        let turns = if is_bold { BOLD_TURNS } else { TURNS };
         [Some(h), self.mesh.twin(h)].into_iter().flatten().all(|h| {
             let (a, b, c) = (self.mesh.origin(h), self.mesh.target(h), self.mesh.opposite(h));
             let before = self.agreement([a, b, c], &area_vector([a, b, c].map(|v| self.point(v))));
@@ -118,7 +124,7 @@ impl Covering<'_> {
                 unit.map_or(-1.0, |unit| self.agrees(u, &unit).min(self.agrees(v, &unit)).min(new(&unit)))
             };
             let (x, y, z) = (self.point(a), self.point(b), self.point(c));
-            part(a, c, [x, p, z]).min(part(b, c, [p, y, z])) >= before.min(TURNS)
+            part(a, c, [x, p, z]).min(part(b, c, [p, y, z])) >= before.min(turns)
         })
     }
 

@@ -20,17 +20,15 @@ impl Roll {
             moving.iter().copied().filter(|&v| covering.mesh.faces_at(v).any(|f| covering.is_coarse(f))).collect();
         self.look(covering, &at_coarse, &mut is_hidden);
         let mut fresh = at_coarse;
-        let mut seen = 0;
-        for _ in 0..LOOKS {
+        for look in 0..LOOKS {
             self.refine(covering, moving, &mut is_hidden, fresh);
             // What was looked into and not cut since is as it was.
             let faces: Vec<u32> = covering
                 .mesh
                 .faces()
                 .filter(|&f| covering.is_coarse(f) && !covering.mesh.face(f).iter().any(|&v| is_hidden[v as usize]))
-                .filter(|&f| seen == 0 || covering.is_touched(f))
+                .filter(|&f| look == 0 || covering.is_touched(f))
                 .collect();
-            seen += 1;
             let found = parallel::map(&faces, covering.threads, |&f| {
                 covering.ground.hidden_between(covering.mesh.triangle(f), &|p| covering.radius(p), covering.edge)
             });
