@@ -144,6 +144,7 @@ fn contact_error(
         unfilled_place: unfilled.place,
         unfilled_where_kept_over_h: not_moved.value / h,
         unfilled_where_kept_place: not_moved.place,
+        uncertain_where_kept_over_h: still.iter().map(|e| e.uncertainty).fold(0.0, f64::max) / h,
         share_beyond_half_h: share(integral(&|e| f64::from(u8::from(e.abs() > 0.5 * h))), area, 0.0),
         moved_area_share: share(area, area + rest, 0.0),
         moved_samples: moved.len(),

@@ -53,6 +53,8 @@ pub struct ContactError {
     pub unfilled_where_kept_over_h: f64,
     /// Where that is.
     pub unfilled_where_kept_place: Option<SurfacePlace>,
+    /// How uncertain the least certain of these distances is: so much more may be undone there.
+    pub uncertain_where_kept_over_h: f64,
     /// The fraction of the moved area that is off by more than half an edge length.
     pub share_beyond_half_h: f64,
     /// The moved area over the whole.

@@ -58,9 +58,21 @@ pub(super) fn run(args: &SurfaceCheckArgs) -> Result<ExitStatus> {
     let failures = failures(&report, args);
     match args.format {
         FormatArg::Text => output::print(&lines(&report, args, &failures))?,
-        FormatArg::Json => output::print(&(serde_json::to_string_pretty(&report)? + "\n"))?,
+        FormatArg::Json => {
+            let judged = Judged { passed: failures.is_empty(), failures: &failures, report: &report };
+            output::print(&(serde_json::to_string_pretty(&judged)? + "\n"))?;
+        }
     }
     Ok(if failures.is_empty() { ExitStatus::Done } else { ExitStatus::CheckFailed })
+}
+
+/// The verdict and what it stands on, as JSON.
+#[derive(serde::Serialize)]
+struct Judged<'a> {
+    passed: bool,
+    failures: &'a [&'static str],
+    #[serde(flatten)]
+    report: &'a SurfaceReport,
 }
 
 /// Why the result does not pass.
@@ -71,6 +83,10 @@ fn failures(report: &SurfaceReport, args: &SurfaceCheckArgs) -> Vec<&'static str
         (
             contact.unfilled_where_kept_over_h > args.tolerance && !args.moved_only,
             "something was left undone where nothing moved (meant so, by pins or regions? --moved-only judges only what moved)",
+        ),
+        (
+            contact.uncertain_where_kept_over_h > args.tolerance && !args.moved_only,
+            "where nothing moved a gap is too nearly as wide as the ball to tell whether something was left undone",
         ),
         (report.containment.output_violation_over_h > args.tolerance, "containment is violated"),
         (crossings.output_pairs > crossings.input_pairs, "more faces cross each other than before"),
@@ -108,9 +124,10 @@ fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> 
             100.0 * c.moved_area_share.abs()
         ),
         format!(
-            "left undone where nothing moved: at most {:.3} h{}{}",
+            "left undone where nothing moved: at most {:.3} h{}, known to {:.3} h{}",
             c.unfilled_where_kept_over_h,
             at(c.unfilled_where_kept_place),
+            c.uncertain_where_kept_over_h,
             if args.moved_only { " (not judged)" } else { "" }
         ),
         format!(

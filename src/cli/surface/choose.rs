@@ -77,7 +77,10 @@ pub(super) fn close(
         && !is_rough
         && flow_crossings == 0
         && (by_flow.off.is_empty() || by_flow.off_area < by_direct.off_area);
-    let (direct_says, flow_says) = (says(&by_direct, crossings), says(&by_flow, flow_crossings));
+    let (mut direct_says, flow_says) = (says(&by_direct, crossings), says(&by_flow, flow_crossings));
+    if !direct.conflicts.is_empty() {
+        direct_says = format!("what is around {} places undone, and {direct_says}", direct.conflicts.len());
+    }
     if crossings > 0 && !is_better {
         let because = format!("direct leaves {direct_says}, the flow {flow_says}: nothing was moved");
         return Ok(chosen(unmoved(mesh, direct.conflicts, &by_direct), MethodArg::Direct, because));

@@ -35,6 +35,9 @@ const DIAGONALS: [f64; 2] = [1e-50, 1e50];
 /// Edges shorter than this, in diagonals, would make more triangles than a machine can hold.
 const SHORTEST_EDGE: f64 = 1e-5;
 
+/// Edges shorter than this part of the largest coordinate are lost in its rounding.
+const STEPS: f64 = 1e-12;
+
 /// So many problems are named.
 const NAMED: usize = 5;
 
@@ -219,6 +222,13 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
             "an edge length of {edge}: it must be at most the radius ({}) and at least {:.3e}",
             field.smallest,
             shortest
+        );
+    }
+    let far = input.triangles.points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+    if edge < STEPS * far {
+        bail!(
+            "an edge length of {edge}: coordinates as large as {far:.3e} are rounded too coarsely for it; move the mesh nearer to the \
+             origin"
         );
     }
     let bar = ProgressBar::new_spinner();

@@ -16,6 +16,10 @@ const CLOSE: f64 = 0.1;
 /// A face whose normal is farther from that of a ball at its corner than this cosine tells is folded.
 const FOLDED: f64 = -0.2;
 
+/// In the result, where the balls at the corners of a face agree with each other, the face agrees with them by this cosine at
+/// least: otherwise it stands on the surface as a thorn does.
+const STANDING: f64 = 0.1;
+
 /// Balls whose normals agree by more than this cosine lie on the same side of a face.
 const ALIKE: f64 = 0.5;
 
@@ -76,15 +80,18 @@ pub(super) fn find_since(covering: &Covering, before: Option<(&Covering, &Found)
     let crossed = parallel::map(&changed, covering.threads, |&f| {
         let [a, b, c] = covering.mesh.triangle(f);
         let mut crossed = Vec::new();
-        if is_folded(covering, f) && balls_agree(covering, f) {
+        let agreement = covering.agreement(covering.mesh.face(f), &area_vector([a, b, c]));
+        if agreement < STANDING && balls_agree(covering, f) {
             crossed.push(f);
         }
         hierarchy.any_in_box(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |k| {
             let g = numbers[k as usize];
-            if f != g && cross([a, b, c], covering.mesh.triangle(g)) {
+            let crosses = f != g && cross([a, b, c], covering.mesh.triangle(g));
+            if crosses {
+                // What has not changed is not looked at from its own side.
                 crossed.extend([f, g].into_iter().filter(|&f| covering.is_touched(f)));
             }
-            false
+            crosses
         });
         crossed
     });

@@ -70,7 +70,10 @@ impl Covering<'_> {
         if torn.is_empty() {
             return false;
         }
-        let gone = self.cut(torn);
+        let gone = self.inside(self.cut(torn));
+        if gone.is_empty() {
+            return false;
+        }
         let Some(rims) = self.rims(&gone) else { return false };
         let normal = |v: u32| {
             let moved = self.rest(v).map(|rest| rest.normal);
@@ -279,6 +282,24 @@ impl Covering<'_> {
             islands.pop();
         }
         gone.extend(islands.into_iter().flatten());
+    }
+
+    /// Of what goes, the pieces that do not reach a boundary, which stays.
+    fn inside(&self, gone: BTreeSet<u32>) -> BTreeSet<u32> {
+        let mut left = gone.clone();
+        let mut inside = gone;
+        while let Some(first) = left.pop_first() {
+            let (mut piece, mut at) = (vec![first], 0);
+            while at < piece.len() {
+                let near: Vec<u32> = self.beside(piece[at]).collect();
+                piece.extend(near.into_iter().filter(|g| left.remove(g)));
+                at += 1;
+            }
+            if piece.iter().any(|&f| self.mesh.half_edges(f).iter().any(|&h| self.mesh.twin(h).is_none())) {
+                piece.iter().for_each(|f| _ = inside.remove(f));
+            }
+        }
+        inside
     }
 
     /// The faces beside a face.

@@ -54,7 +54,7 @@ const MENDINGS: usize = 3;
 const HOPELESS: f64 = 0.5;
 
 /// A bold try may make so many times the vertices there were.
-const MOST_VERTICES: usize = 4;
+const MOST_VERTICES: usize = 2;
 
 /// The radius grows by this much for every unit of distance from what is pinned.
 const EASE: f64 = 1.0;

@@ -6,11 +6,12 @@ use super::conflicts::{Found, find, find_since};
 use super::covering::Covering;
 use super::mend::Rims;
 use super::{MOST_VERTICES, ROUNDS};
+use crate::mesh::Point;
 
 /// So many rings of faces around what is wrong are cut out at most.
 const RINGS: usize = 4;
 
-/// What is wrong within so many edge lengths of each other is one place.
+/// What is wrong in neighbouring cells with sides of so many edge lengths is one place.
 const APART: f64 = 8.0;
 
 /// So many tries that help nowhere are enough.
@@ -22,6 +23,7 @@ const WAYS: [(Rims, bool); 3] = [(Rims::Moved, false), (Rims::All, false), (Rims
 /// Cuts out what is not the closing and fills it anew, and keeps that wherever it is better.
 pub(super) fn retry(mut covering: Covering) -> (Covering, Found) {
     let mut found = find(&covering);
+    let most = MOST_VERTICES * covering.state.len();
     let mut in_vain = 0;
     for (rings, (rims, bold)) in (1..=RINGS).flat_map(|rings| WAYS.map(|way| (rings, way))) {
         let places = places(&found, APART * covering.edge);
@@ -31,7 +33,7 @@ pub(super) fn retry(mut covering: Covering) -> (Covering, Found) {
         let tried = |faces: &[u32]| {
             let mut tried = covering.clone();
             tried.mend_around(faces, rings, rims);
-            tried.bold = bold.then_some(MOST_VERTICES * covering.state.len());
+            tried.bold = bold.then_some(most);
             tried.remesh(ROUNDS);
             tried.bold = None;
             let left = find_since(&tried, Some((&covering, &found)));
@@ -51,21 +53,27 @@ pub(super) fn retry(mut covering: Covering) -> (Covering, Found) {
     (covering, found)
 }
 
-/// The faces that are not the closing, by places that are farther apart than a distance.
-fn places(found: &Found, apart: f64) -> Vec<Vec<u32>> {
-    let mut left: Vec<usize> = (0..found.faces.len()).collect();
+/// The faces that are not the closing, by places: cells of so large a side and those beside them.
+fn places(found: &Found, side: f64) -> Vec<Vec<u32>> {
+    let mut cells: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
+    for (&f, conflict) in found.faces.iter().zip(&found.conflicts) {
+        let Point { coords } = conflict.place;
+        cells.entry([coords.x, coords.y, coords.z].map(|x| (x / side).floor() as i64)).or_default().push(f);
+    }
     let mut places = Vec::new();
-    while let Some(first) = left.pop() {
-        let (mut place, mut at) = (vec![first], 0);
-        while at < place.len() {
-            let here = found.conflicts[place[at]].place;
-            at += 1;
-            let near: Vec<usize>;
-            (near, left) =
-                left.into_iter().partition(|&k| (found.conflicts[k].place - here).norm_squared() <= apart * apart);
-            place.extend(near);
+    while let Some((first, mut place)) = cells.pop_first() {
+        let mut open = vec![first];
+        while let Some([x, y, z]) = open.pop() {
+            for n in 0..27 {
+                let cell = [x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1];
+                if let Some(faces) = cells.remove(&cell) {
+                    place.extend(faces);
+                    open.push(cell);
+                }
+            }
         }
-        places.push(place.into_iter().map(|k| found.faces[k]).collect());
+        place.sort_unstable();
+        places.push(place);
     }
     places
 }

@@ -20,23 +20,28 @@ impl Roll {
             moving.iter().copied().filter(|&v| covering.mesh.faces_at(v).any(|f| covering.is_coarse(f))).collect();
         self.look(covering, &at_coarse, &mut is_hidden);
         let mut fresh = at_coarse;
-        for look in 0..LOOKS {
+        // The corners of faces that were looked into in vain.
+        let mut is_clear: Vec<Option<[u32; 3]>> = Vec::new();
+        for _ in 0..LOOKS {
             self.refine(covering, moving, &mut is_hidden, fresh);
-            // What was looked into and not cut since is as it was.
+            is_clear.resize(covering.mesh.face_count(), None);
             let faces: Vec<u32> = covering
                 .mesh
                 .faces()
                 .filter(|&f| covering.is_coarse(f) && !covering.mesh.face(f).iter().any(|&v| is_hidden[v as usize]))
-                .filter(|&f| look == 0 || covering.is_touched(f))
+                .filter(|&f| is_clear[f as usize] != Some(covering.mesh.face(f)))
                 .collect();
             let found = parallel::map(&faces, covering.threads, |&f| {
                 covering.ground.hidden_between(covering.mesh.triangle(f), &|p| covering.radius(p), covering.edge)
             });
             fresh = Vec::new();
             for (f, p) in faces.into_iter().zip(found) {
-                if let Some(p) = p
-                    && let Some(w) = self.put(covering, f, p)
-                {
+                let corners = covering.mesh.has_face(f).then(|| covering.mesh.face(f));
+                let Some(p) = p else {
+                    is_clear[f as usize] = corners;
+                    continue;
+                };
+                if let Some(w) = self.put(covering, f, p) {
                     moving.push(w);
                     fresh.push(w);
                 }
@@ -99,13 +104,16 @@ impl Roll {
             .filter(|(length, _)| *length > remesh::LONGEST * covering.edge)
             .collect();
         long.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        long.into_iter()
-            .map(|(_, h)| {
-                let mesh = &covering.mesh;
-                let middle = nalgebra::center(&covering.point(mesh.origin(h)), &covering.point(mesh.target(h)));
-                self.cut_edge(covering, h, middle)
-            })
-            .collect()
+        let mut new = Vec::new();
+        for (_, h) in long {
+            let (p, q) = (covering.point(covering.mesh.origin(h)), covering.point(covering.mesh.target(h)));
+            let middle = nalgebra::center(&p, &q);
+            // Very far from the origin there is nothing between.
+            if middle != p && middle != q {
+                new.push(self.cut_edge(covering, h, middle));
+            }
+        }
+        new
     }
 
     /// Puts a vertex of the input on an edge.
