@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::conflicts::{self, Trouble};
 use super::contact::Ground;
 use super::covering::{Covering, State};
-use super::{BESIDE, ClosedSurface, EASE, SurfaceOptions, parallel};
+use super::{BESIDE, ClosedSurface, SurfaceOptions, parallel};
 use crate::mesh::{HalfEdgeMesh, Hierarchy, NONE, NotManifold, Point, TriangleMesh, Vector};
 
 /// A vertex lands where the ball touches if that is no farther than so many edge lengths.
@@ -33,7 +33,7 @@ pub fn land_surface(
     let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
     let hierarchy = Hierarchy::new(&input.points, &input.faces);
     let ground = Ground { mesh: &mesh, hierarchy: &hierarchy };
-    let field = |p: Point| (options.radius)(p).min(EASE * (options.pin_distance)(p)).max(0.0);
+    let field = |p: Point| options.ball(p);
     let start = start(&ground, &field, near, options)?;
     let mut frozen: BTreeSet<u32> = BTreeSet::new();
     for k in 0..TRIES {

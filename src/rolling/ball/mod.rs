@@ -77,6 +77,14 @@ pub struct SurfaceOptions<'a> {
     pub threads: usize,
 }
 
+impl SurfaceOptions<'_> {
+    /// The radius of the ball at a place: near what is pinned it gets smaller, down to nothing.
+    fn ball(&self, p: Point) -> f64 {
+        let radius = (self.radius)(p);
+        if radius > 0.0 { radius.min(EASE * (self.pin_distance)(p)).max(0.0) } else { 0.0 }
+    }
+}
+
 /// A closed surface.
 #[derive(Clone, Debug, Default)]
 pub struct ClosedSurface {
@@ -105,8 +113,7 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
     let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
     let hierarchy = Hierarchy::new(&input.points, &input.faces);
     let ground = Ground { mesh: &mesh, hierarchy: &hierarchy };
-    // Near what is pinned the ball gets smaller, down to nothing.
-    let field = |p: Point| (options.radius)(p).min(EASE * (options.pin_distance)(p)).max(0.0);
+    let field = |p: Point| options.ball(p);
     let careful = retry(cover(input, &ground, &field, options, None));
     let moved = careful.0.active_faces().len() as f64;
     if careful.1.faces.is_empty() || careful.1.faces.len() as f64 > HOPELESS * moved {
