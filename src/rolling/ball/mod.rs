@@ -21,6 +21,7 @@ mod reveal;
 mod ridge;
 mod roll;
 mod roller;
+mod unfold;
 mod zip;
 
 pub use conflicts::{Conflict, Trouble};

@@ -6,7 +6,7 @@ use super::covering::{Covering, State, area_vector, quality};
 use crate::mesh::{NONE, Point, Vector};
 
 /// Edges shorter and longer than so many edge lengths are merged and split.
-const SHORTEST: f64 = 0.4;
+pub(super) const SHORTEST: f64 = 0.4;
 pub(super) const LONGEST: f64 = 1.5;
 
 /// A split is worth it where both halves are within these parts of the edge.

@@ -50,7 +50,15 @@ pub(super) fn retry(mut covering: Covering) -> (Covering, Found) {
             in_vain = 0;
         }
     }
-    (covering, found)
+    unfolded(covering, found)
+}
+
+/// The same with fewer faces that turn their backs on each other, where no more than before is wrong.
+fn unfolded<'a>(covering: Covering<'a>, found: Found) -> (Covering<'a>, Found) {
+    let mut tried = covering.clone();
+    tried.unfold();
+    let left = find_since(&tried, Some((&covering, &found)));
+    if left.faces.len() <= found.faces.len() { (tried, left) } else { (covering, found) }
 }
 
 /// The faces that are not the closing, by places: cells of so large a side and those beside them.

@@ -8,6 +8,10 @@ use crate::mesh::{Point, Vector};
 /// Faces are looked into so often at most; each time, what was found is cut down to the edge length.
 const LOOKS: usize = 64;
 
+/// Edges longer than so many edge lengths are cut with the longest around first, lest slivers spread over the whole of a wide
+/// face; shorter ones are cut all at once, which leaves the faces around as they are.
+const WIDE: f64 = 8.0;
+
 /// A hidden point nearer to a side of its face than this part of its height goes to that side.
 const BESIDE_A_SIDE: f64 = 0.02;
 
@@ -87,6 +91,17 @@ impl Roll {
     /// Cuts the edges longer than what is aimed at of faces at some vertices where both ends are the input's; the new
     /// vertices.
     pub fn cut_long(&mut self, covering: &mut Covering, around: &[u32], at: impl Fn(u32) -> bool) -> Vec<u32> {
+        let mut faces: Vec<u32> = around.iter().filter(|&&v| at(v)).flat_map(|&v| covering.mesh.faces_at(v)).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        let mut new = Vec::new();
+        for &f in &faces {
+            while covering.is_coarse(f) {
+                let Some(h) = longest_around(covering, f) else { break };
+                let Some(w) = self.halve(covering, h) else { break };
+                new.push(w);
+            }
+        }
         let mesh = &covering.mesh;
         let mut edges: Vec<u32> = around
             .iter()
@@ -104,16 +119,17 @@ impl Roll {
             .filter(|(length, _)| *length > remesh::LONGEST * covering.edge)
             .collect();
         long.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let mut new = Vec::new();
         for (_, h) in long {
-            let (p, q) = (covering.point(covering.mesh.origin(h)), covering.point(covering.mesh.target(h)));
-            let middle = nalgebra::center(&p, &q);
-            // Very far from the origin there is nothing between.
-            if middle != p && middle != q {
-                new.push(self.cut_edge(covering, h, middle));
-            }
+            new.extend(self.halve(covering, h));
         }
         new
+    }
+
+    /// Puts a vertex of the input into the middle of an edge. Very far from the origin there is nothing between.
+    fn halve(&mut self, covering: &mut Covering, h: u32) -> Option<u32> {
+        let (p, q) = (covering.point(covering.mesh.origin(h)), covering.point(covering.mesh.target(h)));
+        let middle = nalgebra::center(&p, &q);
+        (middle != p && middle != q).then(|| self.cut_edge(covering, h, middle))
     }
 
     /// Puts a vertex of the input on an edge.
@@ -150,4 +166,27 @@ impl Roll {
         self.normals[w as usize] = normal;
         Some(w)
     }
+}
+
+/// The edge of the input that is to be cut first so that a face gets smaller: the longest of the face, or that of the face
+/// beside it, if that is longer, and so on (Rivara, longest-edge propagation path). Faces stay as they are in shape, and grow
+/// with the way from what is cut.
+fn longest_around(covering: &Covering, f: u32) -> Option<u32> {
+    let mesh = &covering.mesh;
+    let may_be_cut = |h: &u32| covering.is_kept(mesh.origin(*h)) && covering.is_kept(mesh.target(*h));
+    let longest = |f: u32| {
+        let edges = mesh.half_edges(f).into_iter().filter(may_be_cut);
+        edges.map(|h| (mesh.length(h), h)).max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+    };
+    let (mut length, mut h) = longest(f)?;
+    if length <= WIDE * covering.edge {
+        return None;
+    }
+    while let Some((longer, next)) = mesh.twin(h).and_then(|t| longest(mesh.face_of(t))) {
+        if longer <= length {
+            break;
+        }
+        (length, h) = (longer, next);
+    }
+    Some(h)
 }
