@@ -30,6 +30,7 @@ mod stroke;
 #[cfg(test)]
 pub(crate) mod test_shapes;
 mod time;
+mod tool;
 mod toolpath;
 mod walk;
 
@@ -52,4 +53,5 @@ pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
 pub use side::Side;
 pub use solid::Remainder;
 pub use time::{Machine, ProgramTime, estimate};
-pub use toolpath::{Move, MoveKind, Settings, Toolpath};
+pub use tool::{Tool, ToolShape};
+pub use toolpath::{Move, MoveKind, Settings, Step, Toolpath};

@@ -1,5 +1,6 @@
 //! What the tool does, in millimetres and in the machine's coordinates.
 
+use super::Tool;
 use crate::plane::{Link, Point, Turn, Vector};
 use crate::units::Speed;
 
@@ -27,7 +28,7 @@ pub enum MoveKind {
     Plunge,
     /// Along the link at the plunge feed, z falling evenly with the way.
     Ramp(Link),
-    /// Along the link at the feed, at constant z.
+    /// Along the link at the feed, z changing evenly with the way: tabs, carving; mostly it does not change.
     Cut(Link),
 }
 
@@ -69,4 +70,15 @@ pub struct Toolpath {
     pub part_side: Turn,
     /// What was added to the drawing's coordinates to get the machine's.
     pub translation: Vector,
+}
+
+/// What one tool does for one operation of a job: programs are made of such steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// What the operation is called.
+    pub label: String,
+    /// The tool it is done with.
+    pub tool: Tool,
+    /// What the tool does.
+    pub toolpath: Toolpath,
 }
