@@ -31,6 +31,23 @@ pub(super) struct Item {
     pub clips: Vec<usize>,
 }
 
+/// A line to be followed.
+#[derive(Clone, Debug)]
+pub(super) struct Stroked {
+    /// Index in [`Collection::elements`].
+    pub element: u32,
+    pub outline: Rc<Outline>,
+    /// From the outline to the root.
+    pub affine: Affine,
+}
+
+/// What an element is painted with: red, green and blue.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Colors {
+    pub fill: Option<[u8; 3]>,
+    pub stroke: Option<[u8; 3]>,
+}
+
 /// A clip path at one of its places: the union of `items`, cut down to `clips`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Clip {
@@ -50,6 +67,9 @@ pub(super) struct Instance {
 #[derive(Debug, Default)]
 pub(super) struct Collection {
     pub items: Vec<Item>,
+    /// Only where strokes are lines.
+    pub lines: Vec<Stroked>,
+    pub colors: HashMap<u32, Colors>,
     pub clips: Vec<Clip>,
     pub elements: Vec<Place>,
     /// Where each of the elements stands in the document.
@@ -251,6 +271,9 @@ impl<'a, 'input> Collector<'a, 'input> {
         let fill = path.fill().filter(|fill| has_area && fill.opacity().get() > 0.0);
         if let Some(fill) = fill {
             let rule = fill.rule();
+            if context.kind != Kind::Clip {
+                self.collection.colors.entry(element).or_default().fill = color(fill.paint());
+            }
             items.push(Item { element, outline: outline.clone(), affine, rule, clips: clips.clone() });
         }
         if context.kind == Kind::Clip {
@@ -260,7 +283,10 @@ impl<'a, 'input> Collector<'a, 'input> {
             self.collection.found.unpainted += usize::from(fill.is_none());
             return Ok(());
         };
-        if self.strokes == Strokes::Areas {
+        if self.strokes == Strokes::Lines {
+            self.collection.colors.entry(element).or_default().stroke = color(stroke.paint());
+            self.collection.lines.push(Stroked { element, outline, affine });
+        } else if self.strokes == Strokes::Areas {
             let (area, dashes) =
                 stroke::area(&outline, stroke, stroke::MAX_DASHES - self.dashes).map_err(|dashes| {
                     let place = self.collection.elements.get(element as usize).cloned();
@@ -346,6 +372,14 @@ impl<'a, 'input> Collector<'a, 'input> {
             usvg::Node::Group(group) => self.first_element(group),
             child => self.source.elements(child.id()).next(),
         })
+    }
+}
+
+/// The one colour that `paint` has.
+fn color(paint: &usvg::Paint) -> Option<[u8; 3]> {
+    match paint {
+        usvg::Paint::Color(color) => Some([color.red, color.green, color.blue]),
+        _ => None,
     }
 }
 

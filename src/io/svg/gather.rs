@@ -3,14 +3,16 @@
 use std::sync::Arc;
 
 use super::affine::Affine;
-use super::collect::{Collection, Collector, Item};
+use super::collect::{Collection, Collector, Item, Stroked};
 use super::document::{self, Source};
 use super::drawing::{Drawing, RADIUS_ATTRIBUTE, Sources};
 use super::error::{ReadError, Warning, WarningKind};
 use super::fill::fill;
 use super::known::Known;
 use super::options::ReadOptions;
-use super::sample::{Meetings, Sampling};
+use super::outline::Outline;
+use super::sample::{Meetings, Sampling, rings};
+use super::shapes::DrawnLine;
 use super::viewport::{Page, UnitSize};
 use super::{fonts, leftovers, placement};
 use crate::units::MM_PER_INCH;
@@ -74,14 +76,32 @@ pub(super) fn gather<T>(
 }
 
 impl Gathered<'_, '_, '_> {
-    /// The items united, as a drawing without warnings and without a scale.
-    pub fn drawing(&self, items: &[Item]) -> Drawing {
-        let sampling = Sampling {
+    fn sampling(&self) -> Sampling<'_> {
+        Sampling {
             tolerance: self.tolerance,
             curves: self.options.curves,
             meetings: Meetings::Curves,
             known: self.known.as_ref(),
-        };
+        }
+    }
+
+    /// The lines of a stroked outline.
+    pub fn lines(&self, stroked: &Stroked) -> Vec<DrawnLine> {
+        let mut sources = self.sources.clone();
+        let mut lines = Vec::new();
+        for subpath in &stroked.outline.subpaths {
+            let one = Outline { subpaths: vec![subpath.clone()] };
+            let rings = rings(&one, &stroked.affine, self.sampling(), stroked.element, &mut sources);
+            let ends_at_start = subpath.commands.last().is_some_and(|c| c.end() == subpath.start);
+            let is_closed = subpath.closed || ends_at_start;
+            lines.extend(rings.into_iter().map(|ring| DrawnLine { ring, is_closed }));
+        }
+        lines
+    }
+
+    /// The items united, as a drawing without warnings and without a scale.
+    pub fn drawing(&self, items: &[Item]) -> Drawing {
+        let sampling = self.sampling();
         let (region, sources) = fill(&self.collection, items, sampling, self.sources.clone());
         Drawing {
             region,
@@ -154,9 +174,7 @@ fn below_root<'t>(tree: &'t usvg::Tree, root: usvg::roxmltree::Node, page: &Page
 
 /// The larger side of the largest shape.
 fn extent(collection: &Collection) -> f64 {
-    let extents = collection.items.iter().map(|item| {
-        let bounds = item.outline.bounds(&item.affine);
-        bounds.width().max(bounds.height())
-    });
-    extents.fold(0.0, f64::max)
+    let areas = collection.items.iter().map(|item| item.outline.bounds(&item.affine));
+    let lines = collection.lines.iter().map(|line| line.outline.bounds(&line.affine));
+    areas.chain(lines).map(|bounds| bounds.width().max(bounds.height())).fold(0.0, f64::max)
 }

@@ -37,6 +37,7 @@ mod rough;
 pub(super) mod sample;
 mod selection;
 mod shape;
+mod shapes;
 mod stroke;
 mod thin;
 mod viewport;
@@ -49,6 +50,7 @@ pub use error::{Found, MAX_COORDINATE, Place, ReadError, Warning, WarningKind};
 pub use options::{Curves, DEFAULT_FLATTEN, ReadOptions, Strokes};
 pub use parts::{Part, Parts, read_parts};
 pub use selection::Selection;
+pub use shapes::{Color, DrawnLine, DrawnShape, Shapes, read_shapes};
 pub use viewport::Page;
 pub use write::{write, write_parts};
 

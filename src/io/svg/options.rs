@@ -28,6 +28,8 @@ pub enum Strokes {
     Ignore,
     /// The area that a stroke covers belongs to the drawing.
     Areas,
+    /// Lines for a tool to follow: beside what is filled, no part of it.
+    Lines,
 }
 
 /// What to read, and how finely.

@@ -1,0 +1,179 @@
+//! A drawing shape by shape: what each fills, the lines that it strokes, and what it is called.
+
+use std::fmt;
+
+use usvg::roxmltree::Node;
+
+use super::collect::Item;
+use super::drawing::Drawing;
+use super::error::{Place, ReadError, Warning};
+use super::gather::{Gathered, gather};
+use super::options::{ReadOptions, Strokes};
+use crate::plane::{Bounds, Region, Ring};
+use crate::units::DrawingScale;
+
+/// The namespace of Inkscape's attributes, which name its layers.
+const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+
+/// A colour of the drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Color(pub [u8; 3]);
+
+impl Color {
+    /// The colour that CSS writes so: `red`, `#f00`, `#ff0000`, `rgb(255, 0, 0)`.
+    pub fn parse(text: &str) -> Option<Color> {
+        let color: svgtypes::Color = text.trim().parse().ok()?;
+        Some(Color([color.red, color.green, color.blue]))
+    }
+}
+
+impl fmt::Display for Color {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [r, g, b] = self.0;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+/// A line that a shape strokes, along its middle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnLine {
+    /// Its elements, in user units. Of an open line the last element, which leads back to its start, is no part.
+    pub ring: Ring,
+    /// Whether it ends where it starts.
+    pub is_closed: bool,
+}
+
+/// A shape of a drawing, transforms applied: user units, y up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnShape {
+    /// Its element, `id` and line.
+    pub place: Place,
+    /// The `id`s and layer names of all that is around it, itself included, the innermost first.
+    pub names: Vec<String>,
+    /// What it is filled with; none for an unfilled one, or a pattern.
+    pub fill: Option<Color>,
+    /// What it is stroked with.
+    pub stroke: Option<Color>,
+    /// What it fills.
+    pub area: Region,
+    /// What it strokes.
+    pub lines: Vec<DrawnLine>,
+}
+
+/// A drawing shape by shape, in the order of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shapes {
+    /// The shapes that fill or stroke something.
+    pub shapes: Vec<DrawnShape>,
+    /// Millimetres in a user unit, where the file or the options say.
+    pub mm_per_unit: Option<f64>,
+    /// What was left out.
+    pub warnings: Vec<Warning>,
+}
+
+impl Shapes {
+    /// The smallest box that holds all areas and lines.
+    pub fn bounds(&self) -> Bounds {
+        let rings = self.shapes.iter().flat_map(|s| s.area.rings.iter().chain(s.lines.iter().map(|l| &l.ring)));
+        rings.fold(Bounds::EMPTY, |b, ring| b.union(ring.bounds()))
+    }
+
+    /// What lengths typed for the drawing are measured by.
+    pub fn scale(&self) -> DrawingScale {
+        DrawingScale { mm_per_unit: self.mm_per_unit, diagonal: self.bounds().diagonal() }
+    }
+}
+
+/// Reads an SVG file shape by shape. Shapes may overlap and touch each other: none is united with another.
+///
+/// Strokes are lines, whatever `options` say of them: a tool follows them. `width_mm` of the options means areas and lines.
+///
+/// # Errors
+/// As [`read`](super::read), except that strokes alone are something.
+pub fn read_shapes(bytes: &[u8], options: &ReadOptions) -> Result<Shapes, ReadError> {
+    let options = ReadOptions { strokes: Strokes::Lines, ..options.clone() };
+    gather(bytes, &options, None, |gathered| {
+        let mut shapes = Vec::new();
+        for element in 0..gathered.collection.instances.len() as u32 {
+            shapes.extend(shape(&gathered, element));
+        }
+        let mut drawn = Shapes { shapes, mm_per_unit: None, warnings: Vec::new() };
+        if drawn.shapes.is_empty() {
+            return Err(gathered.nothing_filled());
+        }
+        drawn.mm_per_unit = gathered.mm_per_unit(drawn.bounds().width());
+        drawn.warnings = gathered.collection.warnings;
+        Ok(drawn)
+    })
+}
+
+/// The element with this number; `None` where nothing of it is drawn, as in clip paths.
+fn shape(gathered: &Gathered, element: u32) -> Option<DrawnShape> {
+    let collection = &gathered.collection;
+    let items: Vec<Item> = collection.items.iter().filter(|i| i.element == element).cloned().collect();
+    let Drawing { region: area, .. } = gathered.drawing(&items);
+    let stroked = collection.lines.iter().filter(|l| l.element == element);
+    let lines: Vec<DrawnLine> = stroked.flat_map(|l| gathered.lines(l)).collect();
+    if area.is_empty() && lines.is_empty() {
+        return None;
+    }
+    let instance = &collection.instances[element as usize];
+    let around = gathered.source.around(instance);
+    let colors = collection.colors.get(&element).copied().unwrap_or_default();
+    Some(DrawnShape {
+        place: gathered.source.place(*around.first()?),
+        names: around.iter().flat_map(|node| names(gathered, node)).collect(),
+        fill: colors.fill.map(Color).filter(|_| !area.is_empty()),
+        stroke: colors.stroke.map(Color).filter(|_| !lines.is_empty()),
+        area,
+        lines,
+    })
+}
+
+fn names(gathered: &Gathered, node: &Node) -> Vec<String> {
+    let label = node.attribute((INKSCAPE, "label")).map(str::to_owned);
+    gathered.source.place(*node).id.into_iter().chain(label).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(body: &str) -> Shapes {
+        let svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="{INKSCAPE}" width="100mm" height="100mm"
+            viewBox="0 0 100 100">{body}</svg>"#
+        );
+        read_shapes(svg.as_bytes(), &ReadOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn every_shape_has_its_own_area_lines_colours_and_names() {
+        let drawn = read(
+            r##"<g id="g1" inkscape:label="Holes" transform="translate(10 0)"><circle id="a" cx="5" cy="5" r="2"
+            fill="red"/></g><path id="b" d="M0 0H10V10" fill="none" stroke="#00f"/><rect width="10" height="10"
+            style="fill:lime;stroke:black"/>"##,
+        );
+        let [hole, line, plate] = &drawn.shapes[..] else { panic!("{drawn:?}") };
+        assert_eq!(hole.names, ["a", "g1", "Holes"]);
+        assert_eq!((hole.fill, hole.stroke), (Color::parse("#f00"), None));
+        assert!((hole.area.area() - 4.0 * std::f64::consts::PI).abs() < 1e-12);
+        assert_eq!(hole.area.bounds().center(), crate::plane::Point::new(15.0, -5.0));
+        assert!(line.area.is_empty());
+        assert_eq!(line.stroke, Color::parse("blue"));
+        assert!(!line.lines[0].is_closed);
+        let length: f64 = line.lines[0].ring.segments().take(2).map(|s| s.length()).sum();
+        assert_eq!((line.lines[0].ring.len(), length), (3, 20.0));
+        assert_eq!((plate.fill, plate.stroke), (Color::parse("lime"), Color::parse("black")));
+        assert!(plate.lines[0].is_closed && plate.area.area() == 100.0);
+        assert_eq!(drawn.mm_per_unit, Some(1.0));
+        assert!(drawn.warnings.is_empty(), "{:?}", drawn.warnings);
+    }
+
+    #[test]
+    fn strokes_alone_are_a_drawing_and_nothing_is_an_error() {
+        let line = read(r#"<line x1="0" y1="1" x2="5" y2="1" stroke="red"/>"#);
+        assert_eq!(line.shapes[0].lines[0].ring.segments().next().map(|s| s.length()), Some(5.0));
+        assert!(read_shapes(b"<svg xmlns='http://www.w3.org/2000/svg'/>", &ReadOptions::default()).is_err());
+    }
+}
