@@ -86,8 +86,12 @@ pub enum PathRadius {
 pub enum Entry {
     /// Descending along the path; a straight plunge where the path is too short for it.
     Ramp,
+    /// Round and down beside the path, and onto it; a ramp where there is no room for that.
+    Helix,
     /// Straight down.
     Plunge,
+    /// Straight down in a hole that was drilled before, and from there to the path; a ramp where there is none near.
+    Predrilled,
 }
 
 /// What to cut and how. Lengths are millimetres, z points up.

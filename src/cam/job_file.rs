@@ -80,6 +80,15 @@ pub enum DialectName {
     LinuxCnc,
 }
 
+impl fmt::Display for DialectName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            DialectName::Grbl => "grbl",
+            DialectName::LinuxCnc => "linuxcnc",
+        })
+    }
+}
+
 /// A path radius as it was typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TypedPathRadius {
@@ -218,7 +227,13 @@ impl FromStr for Entry {
     type Err = UnknownChoice;
 
     fn from_str(text: &str) -> Result<Entry, UnknownChoice> {
-        choose(text, &[("ramp", Entry::Ramp), ("plunge", Entry::Plunge)])
+        let choices = [
+            ("ramp", Entry::Ramp),
+            ("helix", Entry::Helix),
+            ("plunge", Entry::Plunge),
+            ("predrilled", Entry::Predrilled),
+        ];
+        choose(text, &choices)
     }
 }
 
@@ -250,7 +265,7 @@ impl FromStr for TypedPathRadius {
 }
 
 /// Reads a text or a bare number by the type's own rules: what a job file accepts is what the command line accepts.
-fn typed<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
+pub(super) fn typed<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
 where
     D: serde::Deserializer<'de>,
     T: FromStr,

@@ -15,18 +15,24 @@ mod contour;
 mod entry;
 mod fit;
 mod gouge;
+mod islands;
 mod job;
 mod job_file;
+mod lay;
+mod lead;
 mod motion;
 mod offset;
+mod operation;
 mod order;
 mod path_radius;
 mod plan;
 mod removal;
+mod setup;
 mod side;
 mod simplify;
 mod solid;
 mod stroke;
+mod tabs;
 #[cfg(test)]
 pub(crate) mod test_shapes;
 mod time;
@@ -38,6 +44,7 @@ pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, ce
 pub use contour::Contour;
 pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};
 pub use gouge::{Gouge, deepest_cut};
+pub use islands::{Island, islands};
 pub use job::{
     DEFAULT_ACCELERATION, DEFAULT_DEPTH, DEFAULT_DEPTH_PER_PASS, DEFAULT_DIRECTION, DEFAULT_DWELL, DEFAULT_ENTRY,
     DEFAULT_FEED, DEFAULT_ORIGIN, DEFAULT_PATH_RADIUS, DEFAULT_PLUNGE_FEED, DEFAULT_SAFE_CLEARANCE, DEFAULT_SIDE,
@@ -45,11 +52,17 @@ pub use job::{
     Origin, PathRadius,
 };
 pub use job_file::{DialectName, JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
+pub use lay::{Hole, Notice};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
+pub use operation::{CutLine, Geometry, Keep, OperationError, Planned, TabPlace, plan_operation};
 pub use path_radius::{PathPlace, TightestTurns, tightest_turns};
 pub use plan::{PlanError, plan};
 pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
+pub use setup::{
+    Corners, Cutting, InvalidSetup, Keepout, Operation, OperationKind, Pattern, Rig, SETUP_VERSION, SelectFile, Setup,
+    SetupFile, SetupProblem, Steps, Stock, TabPlaces, Tabs, Words, chip_load, surface_speed,
+};
 pub use side::Side;
 pub use solid::Remainder;
 pub use time::{Machine, ProgramTime, estimate};

@@ -113,7 +113,7 @@ pub fn uncut(program: &Program, part: &Region, remainder: Remainder, tool_radius
 
 /// The paths of all motions at the floor, joined where they follow each other; each trace once. A plunge is a line
 /// without length.
-fn paths_at_floor(program: &Program, floor: f64) -> Vec<Vec<Segment>> {
+pub(super) fn paths_at_floor(program: &Program, floor: f64) -> Vec<Vec<Segment>> {
     let mut seen = HashSet::new();
     let mut paths: Vec<Vec<Segment>> = Vec::new();
     let mut is_open = false;

@@ -32,11 +32,18 @@ pub struct Tool {
     pub diameter: f64,
     /// How many cutting edges it has.
     pub flutes: u32,
-    /// Length of the cutting edges: it may cut no deeper in one pass, nor be that deep in the stock beside a wall.
+    /// Length of the cutting edges: it may cut no deeper in one pass. Infinite where it is not known.
     pub flute_length: f64,
 }
 
 impl Tool {
+    /// A square end mill of two flutes, known by its number.
+    pub fn flat(number: u32, diameter: f64) -> Tool {
+        let name = format!("tool {number}");
+        let shape = ToolShape::Flat;
+        Tool { number, name, shape, is_drill: false, diameter, flutes: 2, flute_length: f64::INFINITY }
+    }
+
     /// Half of the diameter.
     pub fn radius(&self) -> f64 {
         0.5 * self.diameter

@@ -1,6 +1,6 @@
 //! Going along a closed path by length.
 
-use crate::plane::{Point, Segment};
+use crate::plane::{Point, Segment, Vector};
 
 /// Parts of an element shorter than this, in millimetres, are added to their neighbour: far below what is written.
 const SLIVER: f64 = 1e-7;
@@ -28,6 +28,37 @@ impl Walk {
     /// The whole length.
     pub(super) fn length(&self) -> f64 {
         self.before[self.segments.len()]
+    }
+
+    /// The elements.
+    pub(super) fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// The point at `way`.
+    pub(super) fn point_at(&self, way: f64) -> Point {
+        self.at(way.rem_euclid(self.length())).point
+    }
+
+    /// The direction of travel behind `way`.
+    pub(super) fn tangent_at(&self, way: f64) -> Vector {
+        let stop = self.at(way.rem_euclid(self.length()));
+        let segment = self.segments[stop.element];
+        Segment { start: stop.point, ..segment }.start_tangent()
+    }
+
+    /// The way to the point of the path that is nearest to `p`, and its distance; no way where there are no elements.
+    pub(super) fn nearest_way(&self, p: Point) -> (Option<f64>, f64) {
+        let mut best = (None, f64::INFINITY);
+        for (segment, before) in self.segments.iter().zip(&self.before) {
+            let near = segment.nearest(p);
+            if near.distance < best.1 {
+                let part = Segment { end: near.point, ..*segment };
+                let length = if near.point == segment.start { 0.0 } else { part.length() };
+                best = (Some(before + length), near.distance);
+            }
+        }
+        best
     }
 
     /// The place at `way`; near an end of an element it is the end itself, so that no slivers are left.

@@ -1,16 +1,18 @@
-//! Lengths, radii and speeds as people write them; millimetres and `f64` inside.
+//! Lengths, radii, speeds and words as people write them; millimetres and `f64` inside.
 //!
 //! A length is parsed once, at the edge of the program, and resolved once against the drawing it is meant for.
 
 mod brief;
 mod font_length;
 mod length;
+mod nearest;
 mod radius;
 mod speed;
 
 pub use brief::Brief;
 pub use font_length::{FontLength, ParseFontLengthError};
 pub use length::{DrawingScale, Length, ParseLengthError, ResolveLengthError};
+pub use nearest::nearest;
 pub use radius::{InvalidRadius, Radius};
 pub use speed::{ParseSpeedError, Speed};
 

@@ -27,7 +27,6 @@ mod gather;
 mod known;
 mod leftovers;
 mod locate;
-mod nearest;
 mod options;
 pub(super) mod outline;
 mod part;

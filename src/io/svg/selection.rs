@@ -7,7 +7,7 @@ use usvg::roxmltree::Node;
 use super::document::Source;
 use super::error::ReadError;
 use super::gather::Gathered;
-use super::nearest::nearest;
+use crate::units::nearest;
 
 /// Elements by their `id`: that of a shape, or of a group or a `use`, which stands for everything below it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

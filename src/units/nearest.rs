@@ -2,7 +2,7 @@
 
 /// Of `words` the one with the fewest changes of letters from `word`, the first of equals; none where all of them are
 /// other words altogether.
-pub(super) fn nearest<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
+pub fn nearest<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
     let letters: Vec<char> = word.chars().collect();
     let rated = words.map(|other| (changes(&letters, other), other));
     let (changes, found) = rated.reduce(|a, b| if b.0 < a.0 { b } else { a })?;

@@ -1,0 +1,257 @@
+//! Operations: from shapes to what one tool does with them.
+//!
+//! All geometry is in millimetres and in the machine's coordinates. Every operation says what must remain, so that the
+//! program, read back, can be held against it.
+
+mod chamfer;
+mod drill;
+mod engrave;
+mod facing;
+mod pocket;
+mod profile;
+mod raster;
+mod spurs;
+
+use super::lay::Laying;
+use super::lead::Room;
+use super::{
+    Contour, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation, OperationKind, Remainder,
+    Settings, Setup, Tool, Toolpath, fit_arcs, offset,
+};
+use crate::plane::{Point, Region, Ring, Turn, Vector};
+use crate::rolling::{self, Topology};
+use crate::units::Radius;
+
+/// A line to follow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutLine {
+    /// Its elements. Of an open line the last element, which leads back to its start, is no part.
+    pub ring: Ring,
+    /// Whether it ends where it starts.
+    pub is_closed: bool,
+}
+
+/// The shapes that an operation is done to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Geometry {
+    /// What they fill, united.
+    pub area: Region,
+    /// What they stroke.
+    pub lines: Vec<CutLine>,
+    /// Holes that earlier operations have drilled.
+    pub holes: Vec<Hole>,
+}
+
+/// What an operation must not touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keep {
+    /// The shapes as they are drawn.
+    pub part: Region,
+    /// The boundary that the cut is meant to have, with the drawing's solid on its left.
+    pub kept: Region,
+    /// Which side of it remains.
+    pub remainder: Remainder,
+    /// How far the tool's centre keeps from it.
+    pub distance: f64,
+    /// z of the floor.
+    pub floor: f64,
+}
+
+/// A tab that was placed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TabPlace {
+    /// Its middle, on the path.
+    pub at: Point,
+    /// z of the tool over it.
+    pub top: f64,
+}
+
+/// What an operation came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// What the tool does.
+    pub toolpath: Toolpath,
+    /// What must remain, where that is a region.
+    pub keep: Option<Keep>,
+    /// What was not done as asked.
+    pub notices: Vec<Notice>,
+    /// The tabs.
+    pub tabs: Vec<TabPlace>,
+    /// The holes.
+    pub holes: Vec<Hole>,
+    /// How many places of the path rest on two findings that contradict each other.
+    pub contradictions: usize,
+}
+
+/// Why an operation cannot be done.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OperationError {
+    /// The outline has no offset by the tool.
+    #[error(transparent)]
+    Offset(#[from] OffsetError),
+    /// The shapes have no area.
+    #[error("the shapes it is done to fill nothing: give them a fill, or engrave their lines")]
+    NoArea,
+    /// Nothing is left to cut.
+    #[error("there is nothing to cut: the tool, {diameter} mm, is too large for the shapes")]
+    TooLarge {
+        /// Diameter of the tool.
+        diameter: f64,
+    },
+    /// There are no lines and no outlines.
+    #[error("there is no line to follow")]
+    NoLines,
+    /// No circle among the shapes.
+    #[error("there is no circle to drill: holes are circles, or shapes with circular holes")]
+    NoCircles,
+    /// A circle that the tool does not fit into.
+    #[error(
+        "the hole of {hole} mm at ({:.3}, {:.3}) is smaller than the tool, {diameter} mm: take a smaller tool", at.x, at.y
+    )]
+    HoleTooSmall {
+        /// Its centre.
+        at: Point,
+        /// Its diameter.
+        hole: f64,
+        /// Diameter of the tool.
+        diameter: f64,
+    },
+    /// A cone that cannot make the chamfer.
+    #[error("a chamfer of {width} mm needs a cone with a wider side: this one reaches {reach:.3} mm")]
+    ChamferTooWide {
+        /// What was asked for.
+        width: f64,
+        /// What the tool can do.
+        reach: f64,
+    },
+    /// A cone that does not fit beside the outline.
+    #[error("facing needs the width and height of the stock, or shapes")]
+    NothingToFace,
+    /// Carving failed.
+    #[error("{0}")]
+    Carving(String),
+}
+
+/// The way of `operation` over `geometry`.
+///
+/// # Errors
+/// Where there is nothing to do, or the tool is too large.
+pub fn plan_operation(setup: &Setup, operation: &Operation, geometry: &Geometry) -> Result<Planned, OperationError> {
+    let work = Work::new(setup, operation);
+    match &operation.kind {
+        OperationKind::Profile { side, .. } => profile::plan(&work, geometry, *side),
+        OperationKind::Pocket { pattern, stepover, .. } => pocket::plan(&work, geometry, *pattern, *stepover),
+        OperationKind::Drill { peck } => drill::plan(&work, geometry, *peck),
+        OperationKind::Engrave => engrave::plan(&work, geometry),
+        OperationKind::VCarve { .. } => Err(OperationError::Carving("carving is not there yet".into())),
+        OperationKind::Facing { stepover } => facing::plan(&work, geometry, *stepover),
+        OperationKind::Chamfer { side, width } => chamfer::plan(&work, geometry, *side, *width),
+    }
+}
+
+/// An operation with all that it takes from the job.
+struct Work<'a> {
+    setup: &'a Setup,
+    tool: &'a Tool,
+    cutting: &'a Cutting,
+    /// z of the top of the stock.
+    stock_top: f64,
+    /// z from which it starts.
+    top: f64,
+    /// z where it ends.
+    floor: f64,
+    path_radius: f64,
+}
+
+impl<'a> Work<'a> {
+    fn new(setup: &'a Setup, operation: &'a Operation) -> Work<'a> {
+        let cutting = &operation.cutting;
+        let acceleration = setup.rig.limits.acceleration[0].min(setup.rig.limits.acceleration[1]);
+        Work {
+            setup,
+            tool: setup.tool_of(operation),
+            cutting,
+            stock_top: setup.stock.top,
+            top: setup.stock.top - cutting.start_depth,
+            floor: setup.stock.top - cutting.depth,
+            path_radius: cutting.path_radius_mm(acceleration),
+        }
+    }
+
+    fn settings(&self) -> Settings {
+        Settings {
+            feed: self.cutting.feed,
+            plunge_feed: self.cutting.plunge_feed,
+            spindle_speed: self.cutting.spindle_speed,
+            dwell: self.setup.rig.dwell,
+            safe_height: self.setup.rig.safe_height,
+        }
+    }
+
+    /// Whether rings that have what remains on their left are travelled backwards: a spindle that turns clockwise climbs
+    /// with the part on its right.
+    fn backwards(&self) -> bool {
+        self.cutting.direction == Direction::Climb
+    }
+
+    fn part_side(&self) -> Turn {
+        if self.backwards() { Turn::Right } else { Turn::Left }
+    }
+
+    /// The toolpath of `moves`, which begin with a rapid to the safe height.
+    fn toolpath(&self, moves: Vec<Move>, contour_count: usize) -> Toolpath {
+        Toolpath {
+            settings: self.settings(),
+            moves,
+            contour_count,
+            part_side: self.part_side(),
+            translation: Vector::zeros(),
+        }
+    }
+
+    /// The first move: to the safe height, at an unknown place.
+    fn first_moves(&self) -> Vec<Move> {
+        vec![Move { to: Point::origin(), z: self.setup.rig.safe_height, kind: MoveKind::Rapid, contour: 0 }]
+    }
+
+    fn laying<'b>(&'b self, top: f64, heights: &'b [f64], room: Option<Room<'b>>, holes: &'b [Hole]) -> Laying<'b> {
+        Laying {
+            safe_height: self.setup.rig.safe_height,
+            top,
+            heights,
+            entry: self.cutting.entry,
+            tool_diameter: self.tool.diameter,
+            depth_per_pass: self.cutting.depth_per_pass,
+            lead: self.cutting.lead,
+            waste: self.part_side().opposite(),
+            room,
+            holes,
+        }
+    }
+
+    /// Contours of rings that have what remains on their left, in the direction of travel.
+    fn contours(&self, rings: &Region) -> Vec<Contour> {
+        rings.rings.iter().filter_map(|ring| Contour::new(fit_arcs(ring), self.backwards())).collect()
+    }
+}
+
+/// What stays, closed so that the tool's centre has a path at `distance` with the path radius, and that path.
+struct Level {
+    closed: Region,
+    path: Region,
+    contradictions: usize,
+}
+
+impl Level {
+    fn new(stays: &Region, distance: f64, path_radius: f64) -> Result<Level, OffsetError> {
+        let Ok(radius) = Radius::new(distance + path_radius) else {
+            return Ok(Level { closed: stays.clone(), path: stays.clone(), contradictions: 0 });
+        };
+        let outcome = rolling::close(stays, radius, Topology::Merge);
+        let path = offset(&outcome.region, distance)?;
+        Ok(Level { closed: outcome.region, path, contradictions: outcome.contradictions })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,260 @@
+//! All that an area holds, down to a floor.
+//!
+//! Rings: the exact offsets of the outline, each with the path radius, from the middle outwards; where that would leave
+//! islands, [`spurs`] take them. Raster: the outline, then parallel lines from wall to wall.
+
+use super::spurs::spurs;
+use super::{Geometry, Keep, Level, OperationError, Planned, Work, raster};
+use crate::cam::contour::Contour;
+use crate::cam::entry::EntryPlace;
+use crate::cam::lay::{Notice, Pen};
+use crate::cam::lead::Room;
+use crate::cam::order::order;
+use crate::cam::solid::Solid;
+use crate::cam::tabs::TabLine;
+use crate::cam::{Move, MoveKind, Pattern, Remainder, Side};
+use crate::plane::{Link, Point, Region, Segment};
+
+/// The most rings inside of each other: more is a slip of the unit.
+const MOST_RINGS: usize = 5000;
+
+/// How often the path radius is halved where a ring has no room for it, before it is given up.
+const HALVINGS: usize = 2;
+
+/// Neighbouring paths farther apart than this, in stepovers, are not joined by a way through the stock.
+const LONGEST_JOIN: f64 = 2.5;
+
+pub(super) fn plan(
+    work: &Work,
+    geometry: &Geometry,
+    pattern: Pattern,
+    stepover: f64,
+) -> Result<Planned, OperationError> {
+    if geometry.area.is_empty() {
+        return Err(OperationError::NoArea);
+    }
+    let stays = Side::Inside.kept_material(&geometry.area);
+    let radius = work.tool.radius();
+    let rough_distance = radius + work.cutting.allowance;
+    let outline = Level::new(&stays, rough_distance, work.path_radius)?;
+    if outline.path.is_empty() {
+        return Err(OperationError::TooLarge { diameter: work.tool.diameter });
+    }
+    let solid = Solid::new(&outline.closed, Remainder::Inside);
+    let mut cuts = Cuts {
+        work,
+        geometry,
+        room: Room { solid: &solid, distance: rough_distance },
+        join: LONGEST_JOIN * stepover,
+        moves: work.first_moves(),
+        notices: Vec::new(),
+        count: 0,
+    };
+    let heights = work.cutting.pass_heights(work.stock_top);
+    match pattern {
+        Pattern::Rings => {
+            let rings = rings(&stays, &outline.path, rough_distance, stepover, work.path_radius);
+            let contours: Vec<Contour> = rings.iter().flat_map(|level| work.contours(level)).collect();
+            let paths: Vec<Vec<Segment>> = contours.iter().map(|c| c.path.segments().collect()).collect();
+            let islands = spurs(&outline.path, &paths, radius);
+            let stops: Vec<usize> = order(&contours, Point::origin()).iter().map(|s| s.contour).collect();
+            let mut above = work.top;
+            for &height in &heights {
+                cuts.rings(&contours, &stops, above, height);
+                for spur in &islands {
+                    cuts.line(spur.from, spur.to, above, height);
+                }
+                above = height;
+            }
+        }
+        Pattern::Raster => {
+            let contours = work.contours(&outline.path);
+            let stops: Vec<usize> = order(&contours, Point::origin()).iter().map(|s| s.contour).collect();
+            let mut above = work.top;
+            for &height in &heights {
+                cuts.rings(&contours, &stops, above, height);
+                cuts.raster(&outline.path, stepover, height);
+                above = height;
+            }
+        }
+    }
+    let mut shape = outline.closed.clone();
+    let mut contradictions = outline.contradictions;
+    let Cuts { mut moves, mut notices, mut count, .. } = cuts;
+    if work.cutting.allowance > 0.0 && work.cutting.finish {
+        let level = Level::new(&stays, radius, work.path_radius)?;
+        let solid = Solid::new(&level.closed, Remainder::Inside);
+        let floor = [work.floor];
+        let laying = work.laying(work.top, &floor, Some(Room { solid: &solid, distance: radius }), &geometry.holes);
+        let contours = work.contours(&level.path);
+        for stop in order(&contours, Point::origin()) {
+            let contour = &contours[stop.contour];
+            let entry = contour.entries[stop.entry];
+            let mut pen = Pen { moves: &mut moves, notices: &mut notices, contour: count };
+            laying.closed(entry.point, &contour.around_from(&entry), &TabLine::default(), &mut pen);
+            count += 1;
+        }
+        (shape, contradictions) = (level.closed, level.contradictions);
+    }
+    let distance = if work.cutting.finish || work.cutting.allowance == 0.0 { radius } else { rough_distance };
+    let keep = Keep {
+        part: geometry.area.clone(),
+        kept: shape.reversed(),
+        remainder: Remainder::Outside,
+        distance,
+        floor: work.floor,
+    };
+    Ok(Planned {
+        toolpath: work.toolpath(moves, count),
+        keep: Some(keep),
+        notices,
+        tabs: Vec::new(),
+        holes: Vec::new(),
+        contradictions,
+    })
+}
+
+/// The outline, and inside of it ring after ring while there is room.
+fn rings(stays: &Region, outline: &Region, distance: f64, stepover: f64, path_radius: f64) -> Vec<Region> {
+    let mut levels = vec![outline.clone()];
+    for k in 1..MOST_RINGS {
+        let at = distance + k as f64 * stepover;
+        let radii = (0..=HALVINGS).map(|h| path_radius * 0.5f64.powi(h as i32)).chain([0.0]);
+        let level = radii.filter_map(|radius| Level::new(stays, at, radius).ok()).find(|l| !l.path.is_empty());
+        match level {
+            Some(level) => levels.push(level.path),
+            None => break,
+        }
+    }
+    levels
+}
+
+/// The moves of a pocket as they grow.
+struct Cuts<'a> {
+    work: &'a Work<'a>,
+    geometry: &'a Geometry,
+    room: Room<'a>,
+    /// The longest way from path to path through the stock.
+    join: f64,
+    moves: Vec<Move>,
+    notices: Vec<Notice>,
+    count: usize,
+}
+
+impl Cuts<'_> {
+    fn pen(&mut self) -> Pen<'_> {
+        Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count }
+    }
+
+    /// Where the tool is, if it is at `height` but for having been drawn up.
+    fn here(&self, height: f64) -> Option<Point> {
+        let [.., down, up] = self.moves.as_slice() else { return None };
+        (up.kind == MoveKind::Rapid && down.z == height && down.to == up.to).then_some(up.to)
+    }
+
+    /// Whether the way from where the tool is to `to` is short and open: then it stays down.
+    fn joins(&mut self, to: Point, height: f64) -> bool {
+        let Some(here) = self.here(height) else { return false };
+        let open = here == to || ((to - here).norm() <= self.join && self.room.has(&Segment::line(here, to)));
+        if open {
+            // It was drawn up too early.
+            self.moves.pop();
+        }
+        open
+    }
+
+    fn rings(&mut self, contours: &[Contour], stops: &[usize], above: f64, height: f64) {
+        for &number in stops {
+            let contour = &contours[number];
+            let near = self.here(height).and_then(|here| nearest_entry(contour, here));
+            let joined = near.filter(|entry| self.joins(entry.point, height));
+            let path = |entry: &EntryPlace| contour.around_from(entry);
+            match joined {
+                Some(entry) => {
+                    let safe = self.work.setup.rig.safe_height;
+                    let elements = path(&entry);
+                    let mut pen = self.pen();
+                    pen.push(entry.point, height, MoveKind::Cut(Link::Line));
+                    elements.iter().for_each(|s| pen.push(s.end, height, MoveKind::Cut(s.link)));
+                    pen.push(entry.point, safe, MoveKind::Rapid);
+                }
+                None => {
+                    // Never empty.
+                    let Some(entry) = contour.entries.first().copied() else { continue };
+                    let heights = [height];
+                    let room = Room { solid: self.room.solid, distance: self.room.distance };
+                    let mut laying = self.work.laying(above, &heights, Some(room), &self.geometry.holes);
+                    laying.lead = None;
+                    let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };
+                    laying.closed(entry.point, &path(&entry), &TabLine::default(), &mut pen);
+                }
+            }
+            self.count += 1;
+        }
+    }
+
+    /// A straight cut whose start is cut already.
+    fn line(&mut self, from: Point, to: Point, above: f64, height: f64) {
+        let safe = self.work.setup.rig.safe_height;
+        let joined = self.joins(from, height);
+        let mut pen = self.pen();
+        if joined {
+            pen.push(from, height, MoveKind::Cut(Link::Line));
+        } else {
+            pen.push(from, safe, MoveKind::Rapid);
+            if above < safe {
+                pen.push(from, above, MoveKind::Plunge);
+            }
+            pen.push(from, height, MoveKind::Plunge);
+        }
+        pen.push(to, height, MoveKind::Cut(Link::Line));
+        pen.push(to, safe, MoveKind::Rapid);
+        self.count += 1;
+    }
+
+    /// To and fro inside of `outline`, which is cut already.
+    fn raster(&mut self, outline: &Region, stepover: f64, height: f64) {
+        let bounds = outline.bounds();
+        let rows = raster::heights(bounds.min.y, bounds.max.y, stepover);
+        let inner = rows.get(1..rows.len() - 1).unwrap_or_default();
+        let mut left: Vec<Vec<[f64; 2]>> = inner.iter().map(|&y| raster::stretches(outline, y)).collect();
+        while let Some(first) = left.iter().position(|row| !row.is_empty()) {
+            for (row, &y) in inner.iter().enumerate().skip(first) {
+                let here = self.here(height).filter(|_| row > first);
+                let ends = |[a, b]: [f64; 2]| [Point::new(a, y), Point::new(b, y)];
+                // The stretch with the end nearest to the tool, or the first one.
+                let chosen = match here {
+                    None => (0, false),
+                    Some(here) => {
+                        let all = left[row].iter().enumerate().flat_map(|(k, &s)| {
+                            let [a, b] = ends(s);
+                            [(k, false, (a - here).norm()), (k, true, (b - here).norm())]
+                        });
+                        match all.min_by(|a, b| a.2.total_cmp(&b.2)) {
+                            Some((k, turned, _)) => (k, turned),
+                            None => break,
+                        }
+                    }
+                };
+                let [a, b] = ends(left[row][chosen.0]);
+                let (from, to) = if chosen.1 { (b, a) } else { (a, b) };
+                let open = |here: Point| (from - here).norm() <= self.join && self.room.has(&Segment::line(here, from));
+                if here.is_some_and(|here| !open(here)) {
+                    break;
+                }
+                left[row].remove(chosen.0);
+                self.line(from, to, height, height);
+            }
+        }
+    }
+}
+
+/// The place of a contour that is nearest to `here`.
+fn nearest_entry(contour: &Contour, here: Point) -> Option<EntryPlace> {
+    if contour.is_point() {
+        return None;
+    }
+    let near = contour.path.segments().enumerate().map(|(element, s)| (element, s.nearest(here)));
+    let (element, nearest) = near.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance))?;
+    Some(EntryPlace { element, point: nearest.point })
+}

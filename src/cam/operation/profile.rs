@@ -1,0 +1,135 @@
+//! Along outlines, outside, inside or on them.
+
+use super::{Geometry, Keep, Level, OperationError, Planned, TabPlace, Work};
+use crate::cam::lay::{Notice, Pen};
+use crate::cam::lead::Room;
+use crate::cam::order::order;
+use crate::cam::solid::Solid;
+use crate::cam::tabs::TabLine;
+use crate::cam::walk::Walk;
+use crate::cam::{Contour, Remainder, Side};
+use crate::plane::{Point, Region};
+
+pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side) -> Result<Planned, OperationError> {
+    if geometry.area.is_empty() {
+        return Err(OperationError::NoArea);
+    }
+    let stays = side.kept_material(&geometry.area);
+    let distance = if side == Side::On { 0.0 } else { work.tool.radius() };
+    let final_level = Level::new(&stays, distance, work.path_radius)?;
+    let rough = match work.cutting.allowance {
+        allowance if allowance > 0.0 && side != Side::On => {
+            Some(Level::new(&stays, distance + allowance, work.path_radius)?)
+        }
+        _ => None,
+    };
+    let mut cuts = Cuts::new(work, geometry, &final_level.closed, distance, side);
+    let heights = work.cutting.pass_heights(work.stock_top);
+    let skin = work.cutting.onion_skin.map(|skin| work.floor + skin);
+    // Everything down to the skin, if there is one; then the walls; then the skin.
+    let above_skin: Vec<f64> = match skin {
+        Some(skin) => heights.iter().copied().filter(|h| *h > skin).chain([skin]).collect(),
+        None => heights.clone(),
+    };
+    let contours = work.contours(&final_level.path);
+    match &rough {
+        Some(rough) => {
+            cuts.all(&work.contours(&rough.path), work.top, &above_skin, true);
+            if work.cutting.finish {
+                let finish = finish_heights(work, &above_skin);
+                cuts.all(&contours, work.top, &finish, skin.is_none());
+            }
+        }
+        None => cuts.all(&contours, work.top, &above_skin, true),
+    }
+    if let Some(skin) = skin {
+        cuts.all(&contours, skin, &[work.floor], true);
+    }
+    if cuts.count == 0 {
+        return Err(OperationError::TooLarge { diameter: work.tool.diameter });
+    }
+    let is_finished = rough.is_none() || work.cutting.finish;
+    let shape = if is_finished { final_level } else { rough.unwrap_or(final_level) };
+    let (kept, remainder) = match side {
+        Side::Outside | Side::On => (shape.closed, Remainder::Inside),
+        Side::Inside => (shape.closed.reversed(), Remainder::Outside),
+    };
+    let keep = Keep { part: geometry.area.clone(), kept, remainder, distance, floor: work.floor };
+    Ok(Planned {
+        toolpath: work.toolpath(cuts.moves, cuts.count),
+        keep: Some(keep),
+        notices: cuts.notices,
+        tabs: cuts.tabs,
+        holes: Vec::new(),
+        contradictions: shape.contradictions,
+    })
+}
+
+/// z of the passes that cut the walls again: one, as deep as the flutes are long.
+fn finish_heights(work: &Work, rough: &[f64]) -> Vec<f64> {
+    let floor = rough.last().copied().unwrap_or(work.floor);
+    let depth = work.top - floor;
+    let count = (depth / work.tool.flute_length).ceil().max(1.0) as usize;
+    (1..=count).map(|k| work.top - depth * (k as f64 / count as f64)).collect()
+}
+
+/// The moves of a profile as they grow.
+struct Cuts<'a> {
+    work: &'a Work<'a>,
+    geometry: &'a Geometry,
+    solid: Solid,
+    distance: f64,
+    has_room: bool,
+    moves: Vec<crate::cam::Move>,
+    notices: Vec<Notice>,
+    tabs: Vec<TabPlace>,
+    count: usize,
+}
+
+impl<'a> Cuts<'a> {
+    fn new(work: &'a Work, geometry: &'a Geometry, closed: &Region, distance: f64, side: Side) -> Cuts<'a> {
+        Cuts {
+            work,
+            geometry,
+            solid: Solid::new(closed, Remainder::Inside),
+            distance,
+            has_room: side != Side::On,
+            moves: work.first_moves(),
+            notices: Vec::new(),
+            tabs: Vec::new(),
+            count: 0,
+        }
+    }
+
+    /// All contours in a good order, each down to the last height. Tabs are told of once.
+    fn all(&mut self, contours: &[Contour], top: f64, heights: &[f64], tells: bool) {
+        let room = self.has_room.then_some(Room { solid: &self.solid, distance: self.distance });
+        let laying = self.work.laying(top, heights, room, &self.geometry.holes);
+        for stop in order(contours, Point::origin()) {
+            let contour = &contours[stop.contour];
+            let entry = contour.entries[stop.entry];
+            let path = contour.around_from(&entry);
+            let mut tabs = TabLine::default();
+            if let Some(asked) = self.work.cutting.tabs.as_ref().filter(|_| !path.is_empty()) {
+                let walk = Walk::new(path.clone());
+                let placed =
+                    TabLine::place(asked, &walk, self.work.floor, self.work.tool.diameter, self.work.tool.radius());
+                if tells {
+                    let top = self.work.floor + asked.height;
+                    self.tabs.extend(placed.line.points(&walk).into_iter().map(|at| TabPlace { at, top }));
+                    let missing = placed.asked - placed.line.count();
+                    if missing > 0 {
+                        self.notices.push(Notice::TabsDropped(entry.point, missing));
+                    }
+                    if placed.on_arcs > 0 {
+                        self.notices.push(Notice::TabsOnArcs(entry.point, placed.on_arcs));
+                    }
+                }
+                tabs = placed.line;
+            }
+            let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };
+            laying.closed(entry.point, &path, &tabs, &mut pen);
+            self.count += 1;
+        }
+    }
+}

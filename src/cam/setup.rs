@@ -1,0 +1,322 @@
+//! A whole job: the stock, the machine, its tools, and the operations in their order. Lengths are millimetres.
+
+mod file;
+mod locate;
+mod resolve;
+
+use super::{Direction, Entry, Machine, PathRadius, Side, Tool};
+use crate::units::Speed;
+pub use file::{InvalidSetup, SelectFile, SetupFile, SetupProblem, Words};
+
+/// The version of job files with operations that this program reads.
+pub const SETUP_VERSION: i64 = 1;
+
+/// What is cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stock {
+    /// Extent along x and y, where it is known.
+    pub size: Option<[f64; 2]>,
+    /// Thickness, where it is known.
+    pub thickness: Option<f64>,
+    /// z of its top.
+    pub top: f64,
+    /// What it is made of: chooses the feeds of the tools.
+    pub material: Option<String>,
+}
+
+/// Where the tool must not go.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keepout {
+    /// Least and largest x.
+    pub x: [f64; 2],
+    /// Least and largest y.
+    pub y: [f64; 2],
+    /// z up to which it stands; above every move where it is not said.
+    pub top: f64,
+}
+
+/// How the machine is told what to do, and what it can.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rig {
+    /// The name or file of its dialect.
+    pub dialect: String,
+    /// Whether programs are in inches.
+    pub inches: bool,
+    /// Whether arcs are written as arcs.
+    pub arcs: bool,
+    /// Accelerations and speeds.
+    pub limits: Machine,
+    /// The most that x, y and z may travel, where it is known.
+    pub travel: Option<[f64; 3]>,
+    /// z of travel.
+    pub safe_height: f64,
+    /// Seconds to wait for the spindle.
+    pub dwell: f64,
+    /// The fastest that the spindle turns, where it is known.
+    pub largest_spindle_speed: Option<f64>,
+}
+
+/// A whole job.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    /// What is cut.
+    pub stock: Stock,
+    /// The machine.
+    pub rig: Rig,
+    /// The tools, as the operations refer to them.
+    pub tools: Vec<Tool>,
+    /// Where the tool must not go.
+    pub keepouts: Vec<Keepout>,
+    /// What is done, in order.
+    pub operations: Vec<Operation>,
+}
+
+/// Which tool does what to which shapes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Operation {
+    /// What it is called; never empty.
+    pub label: String,
+    /// The line of the job file where it starts.
+    pub line: usize,
+    /// What is done.
+    pub kind: OperationKind,
+    /// Index of its tool.
+    pub tool: usize,
+    /// The shapes it is done to.
+    pub select: SelectFile,
+    /// How.
+    pub cutting: Cutting,
+}
+
+/// What is done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OperationKind {
+    /// Along outlines.
+    Profile {
+        /// Which side of them.
+        side: Side,
+        /// How corners that the tool cannot reach are treated.
+        corners: Corners,
+        /// The diameter of a larger tool that has cut the same outlines before: only what it left is cut.
+        rest_of: Option<f64>,
+    },
+    /// All that areas hold, down to a floor.
+    Pocket {
+        /// Along the outlines, or to and fro.
+        pattern: Pattern,
+        /// Distance between neighbouring paths.
+        stepover: f64,
+        /// As in a profile.
+        corners: Corners,
+        /// As in a profile.
+        rest_of: Option<f64>,
+    },
+    /// Round holes: drilled, or bored along a helix where they are larger than the tool.
+    Drill {
+        /// How deep the tool goes before it is drawn out, where it is.
+        peck: Option<f64>,
+    },
+    /// Along lines and outlines.
+    Engrave,
+    /// Areas, by a cone as deep as they are wide.
+    VCarve {
+        /// The deepest it may go.
+        max_depth: Option<f64>,
+    },
+    /// The top of the stock made flat.
+    Facing {
+        /// Distance between neighbouring paths.
+        stepover: f64,
+    },
+    /// Edges broken by a cone.
+    Chamfer {
+        /// Which side of the outlines the waste is on.
+        side: Side,
+        /// Width of the chamfer, seen from above.
+        width: f64,
+    },
+}
+
+/// What happens to inside corners that a round tool leaves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Corners {
+    /// They stay round.
+    #[default]
+    Round,
+    /// They are cut away along their bisector, so that a square part fits.
+    Dogbone,
+    /// They are cut away along their longer wall.
+    TBone,
+}
+
+/// How a pocket is cleared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pattern {
+    /// Along its outline, ring inside ring.
+    #[default]
+    Rings,
+    /// To and fro along x.
+    Raster,
+}
+
+/// How passes get deeper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Steps {
+    /// In equal steps.
+    #[default]
+    Even,
+    /// In the largest steps, and a smaller last one.
+    Stepped,
+}
+
+/// Pieces that hold a part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tabs {
+    /// Where they are.
+    pub places: TabPlaces,
+    /// Length of what is left, along the path.
+    pub width: f64,
+    /// Height of what is left above the floor.
+    pub height: f64,
+}
+
+/// Where tabs are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TabPlaces {
+    /// So many on every outline.
+    Count(usize),
+    /// One every so many millimetres, two at least.
+    Spacing(f64),
+    /// Where the outline is nearest to these places of the machine.
+    At(Vec<[f64; 2]>),
+}
+
+/// How an operation cuts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cutting {
+    /// How far below the top of the stock it starts.
+    pub start_depth: f64,
+    /// How far below the top of the stock it ends.
+    pub depth: f64,
+    /// Most that a pass may go deeper than the one before.
+    pub depth_per_pass: f64,
+    /// How passes get deeper.
+    pub steps: Steps,
+    /// Thickness of the last pass, where it is chosen.
+    pub final_pass: Option<f64>,
+    /// Feed along the path.
+    pub feed: Speed,
+    /// Feed of ramps and plunges.
+    pub plunge_feed: Speed,
+    /// Spindle speed in revolutions a minute; the power of a laser.
+    pub spindle_speed: f64,
+    /// Climb or conventional.
+    pub direction: Direction,
+    /// Smallest radius of the path in inside corners.
+    pub path_radius: PathRadius,
+    /// How the tool enters the stock.
+    pub entry: Entry,
+    /// Radius of the arcs on which the tool comes to outlines and leaves them, where it does.
+    pub lead: Option<f64>,
+    /// What holds the part.
+    pub tabs: Option<Tabs>,
+    /// Thickness of what is left at the floor until all else is cut.
+    pub onion_skin: Option<f64>,
+    /// What is left at the walls for a finishing pass.
+    pub allowance: f64,
+    /// Whether the walls are cut again, at full depth and without the allowance.
+    pub finish: bool,
+}
+
+impl Cutting {
+    /// The path radius in millimetres on a machine of this acceleration in mm/s².
+    pub fn path_radius_mm(&self, acceleration: f64) -> f64 {
+        match self.path_radius {
+            PathRadius::Auto => self.feed.mm_per_s().powi(2) / acceleration,
+            PathRadius::Length(length) => length,
+        }
+    }
+
+    /// z of every pass from the top down, for a stock with its top at `stock_top`.
+    pub fn pass_heights(&self, stock_top: f64) -> Vec<f64> {
+        let floor = self.depth;
+        let last = self.final_pass.filter(|last| *last < floor - self.start_depth);
+        let rough = floor - last.unwrap_or(0.0) - self.start_depth;
+        let count = (rough / self.depth_per_pass - PASS_ROUNDING).ceil().clamp(1.0, LARGEST_PASS_COUNT) as usize;
+        let depth = |k: usize| match self.steps {
+            _ if k == count => self.start_depth + rough,
+            Steps::Even => self.start_depth + rough * (k as f64 / count as f64),
+            Steps::Stepped => self.start_depth + self.depth_per_pass * k as f64,
+        };
+        let mut heights: Vec<f64> = (1..=count).map(|k| stock_top - depth(k)).collect();
+        if last.is_some() {
+            heights.push(stock_top - floor);
+        }
+        heights
+    }
+}
+
+/// How much of a pass may be missing before another is made: rounding of depth over depth per pass.
+const PASS_ROUNDING: f64 = 1e-9;
+
+/// Largest number of passes: more is a slip of the unit.
+const LARGEST_PASS_COUNT: f64 = 1000.0;
+
+impl Setup {
+    /// The tool of an operation.
+    pub fn tool_of(&self, operation: &Operation) -> &Tool {
+        &self.tools[operation.tool]
+    }
+
+    /// What is unusual about feeds and speeds, in sentences: chips too thin or too thick, cutting edges too fast.
+    pub fn cutting_warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for operation in &self.operations {
+            let tool = self.tool_of(operation);
+            let cutting = &operation.cutting;
+            let chip = chip_load(cutting.feed, cutting.spindle_speed, tool.flutes);
+            let share = chip / tool.diameter;
+            let label = &operation.label;
+            if cutting.spindle_speed > 0.0 && !tool.is_drill {
+                if share > THICKEST_CHIP {
+                    warnings.push(format!(
+                        "operation \"{label}\": {chip:.3} mm a tooth is {:.1} % of the tool's diameter, more than most \
+                         end mills bear: lower the feed or raise the spindle speed",
+                        100.0 * share
+                    ));
+                } else if chip < THINNEST_CHIP {
+                    warnings.push(format!(
+                        "operation \"{label}\": {chip:.4} mm a tooth rubs rather than cuts, and dulls the edge: raise the \
+                         feed or lower the spindle speed"
+                    ));
+                }
+            }
+            let speed = surface_speed(tool.diameter, cutting.spindle_speed);
+            if speed > FASTEST_EDGE {
+                warnings.push(format!(
+                    "operation \"{label}\": the cutting edge runs at {speed:.0} m/min, faster than any common material bears"
+                ));
+            }
+        }
+        warnings
+    }
+}
+
+/// Chips thicker than this share of the tool's diameter break small end mills.
+const THICKEST_CHIP: f64 = 0.05;
+
+/// Chips thinner than this, in millimetres, are less than the radius of the cutting edge: it rubs.
+const THINNEST_CHIP: f64 = 0.002;
+
+/// Faster than this, in metres a minute, no common hobby material is cut: aluminium and wood bear about 1000.
+const FASTEST_EDGE: f64 = 3000.0;
+
+/// Millimetres that each tooth cuts: feed / (speed × flutes).
+pub fn chip_load(feed: Speed, spindle_speed: f64, flutes: u32) -> f64 {
+    feed.mm_per_min() / (spindle_speed * f64::from(flutes.max(1)))
+}
+
+/// The speed of the cutting edge in metres a minute.
+pub fn surface_speed(diameter: f64, spindle_speed: f64) -> f64 {
+    std::f64::consts::PI * diameter * spindle_speed / 1000.0
+}
