@@ -42,6 +42,8 @@ pub enum Notice {
     HelixSkipped(Point),
     /// No hole of the drawing is wide and deep enough and near by an open way: the tool ramps.
     NoHole(Point),
+    /// The path does not come near this corner: it has no relief.
+    CornerSkipped(Point),
     /// So many tabs found no place on the path that starts here.
     TabsDropped(Point, usize),
     /// So many tabs stand on tight arcs.

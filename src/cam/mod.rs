@@ -23,6 +23,7 @@ mod lead;
 mod motion;
 mod offset;
 mod operation;
+mod operation_check;
 mod order;
 mod path_radius;
 mod plan;
@@ -56,12 +57,14 @@ pub use lay::{Hole, Notice};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
 pub use operation::{CutLine, Geometry, Keep, OperationError, Planned, TabPlace, plan_operation};
+pub use operation_check::{OperationCheck, check_operation, split_operations};
 pub use path_radius::{PathPlace, TightestTurns, tightest_turns};
 pub use plan::{PlanError, plan};
 pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
 pub use setup::{
-    Corners, Cutting, InvalidSetup, Keepout, Operation, OperationKind, Pattern, Rig, SETUP_VERSION, SelectFile, Setup,
-    SetupFile, SetupProblem, Steps, Stock, TabPlaces, Tabs, Words, chip_load, surface_speed,
+    Corners, Cutting, InvalidSetup, Keepout, Operation, OperationKind, Pattern, Rig, SETUP_VERSION, SampleShape,
+    SelectFile, Setup, SetupFile, SetupProblem, Steps, Stock, TabPlaces, Tabs, Words, chip_load, commented_sample,
+    surface_speed,
 };
 pub use side::Side;
 pub use solid::Remainder;

@@ -10,13 +10,15 @@ mod facing;
 mod pocket;
 mod profile;
 mod raster;
+mod relief;
+mod rest;
 mod spurs;
 
 use super::lay::Laying;
 use super::lead::Room;
 use super::{
-    Contour, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation, OperationKind, Remainder,
-    Settings, Setup, Tool, Toolpath, fit_arcs, offset,
+    Contour, Corners, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation, OperationKind,
+    Remainder, Settings, Setup, Side, Tool, Toolpath, fit_arcs, offset,
 };
 use crate::plane::{Point, Region, Ring, Turn, Vector};
 use crate::rolling::{self, Topology};
@@ -98,6 +100,12 @@ pub enum OperationError {
         /// Diameter of the tool.
         diameter: f64,
     },
+    /// The larger tool has left nothing.
+    #[error("the larger tool has left nothing that this one, {diameter} mm, could reach")]
+    NothingLeft {
+        /// Diameter of the tool.
+        diameter: f64,
+    },
     /// There are no lines and no outlines.
     #[error("there is no line to follow")]
     NoLines,
@@ -139,14 +147,39 @@ pub enum OperationError {
 pub fn plan_operation(setup: &Setup, operation: &Operation, geometry: &Geometry) -> Result<Planned, OperationError> {
     let work = Work::new(setup, operation);
     match &operation.kind {
-        OperationKind::Profile { side, .. } => profile::plan(&work, geometry, *side),
-        OperationKind::Pocket { pattern, stepover, .. } => pocket::plan(&work, geometry, *pattern, *stepover),
+        OperationKind::Profile { side, rest_of: Some(larger), .. } => rest::plan(
+            &work,
+            geometry,
+            *side,
+            larger_radius(setup, operation, *larger),
+            REST_STEPOVER * work.tool.diameter,
+        ),
+        OperationKind::Profile { side, corners, rest_of: None } => profile::plan(&work, geometry, *side, *corners),
+        OperationKind::Pocket { stepover, rest_of: Some(larger), .. } => {
+            rest::plan(&work, geometry, Side::Inside, larger_radius(setup, operation, *larger), *stepover)
+        }
+        OperationKind::Pocket { pattern, stepover, corners, rest_of: None } => {
+            pocket::plan(&work, geometry, *pattern, *stepover, *corners)
+        }
         OperationKind::Drill { peck } => drill::plan(&work, geometry, *peck),
         OperationKind::Engrave => engrave::plan(&work, geometry),
         OperationKind::VCarve { .. } => Err(OperationError::Carving("carving is not there yet".into())),
         OperationKind::Facing { stepover } => facing::plan(&work, geometry, *stepover),
         OperationKind::Chamfer { side, width } => chamfer::plan(&work, geometry, *side, *width),
     }
+}
+
+/// Distance between the paths of a profile's rest, in tool diameters.
+const REST_STEPOVER: f64 = 0.4;
+
+/// The radius by which an earlier tool has closed what stays: its own, and that of its path.
+fn larger_radius(setup: &Setup, operation: &Operation, diameter: f64) -> f64 {
+    let acceleration = setup.rig.limits.acceleration[0].min(setup.rig.limits.acceleration[1]);
+    let earlier = setup.operations.iter().take_while(|o| o.line < operation.line);
+    let used = earlier.filter(|o| setup.tool_of(o).diameter == diameter);
+    let own = operation.cutting.path_radius_mm(acceleration);
+    let path_radius = used.map(|o| o.cutting.path_radius_mm(acceleration)).reduce(f64::max).unwrap_or(own);
+    0.5 * diameter + path_radius
 }
 
 /// An operation with all that it takes from the job.
@@ -231,11 +264,22 @@ impl<'a> Work<'a> {
 
     /// Contours of rings that have what remains on their left, in the direction of travel.
     fn contours(&self, rings: &Region) -> Vec<Contour> {
-        rings.rings.iter().filter_map(|ring| Contour::new(fit_arcs(ring), self.backwards())).collect()
+        self.contours_of(&fitted(rings))
+    }
+
+    /// The same of rings that have their arcs already.
+    fn contours_of(&self, fitted: &Region) -> Vec<Contour> {
+        fitted.rings.iter().filter_map(|ring| Contour::new(ring.clone(), self.backwards())).collect()
     }
 }
 
+/// Rings with arcs in place of chords.
+fn fitted(rings: &Region) -> Region {
+    Region::new(rings.rings.iter().map(fit_arcs).collect())
+}
+
 /// What stays, closed so that the tool's centre has a path at `distance` with the path radius, and that path.
+#[derive(Clone, Debug)]
 struct Level {
     closed: Region,
     path: Region,

@@ -3,10 +3,12 @@
 mod file;
 mod locate;
 mod resolve;
+mod sample;
 
 use super::{Direction, Entry, Machine, PathRadius, Side, Tool};
 use crate::units::Speed;
 pub use file::{InvalidSetup, SelectFile, SetupFile, SetupProblem, Words};
+pub use sample::{SampleShape, commented_sample};
 
 /// The version of job files with operations that this program reads.
 pub const SETUP_VERSION: i64 = 1;

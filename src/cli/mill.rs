@@ -1,6 +1,7 @@
 //! `clopen mill`: outlines to a program that was read back and checked before anyone is told that it is there.
 
 mod args;
+mod select;
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Edges broken by the side of a cone.
 
-use super::{Geometry, OperationError, Planned, Work, profile};
+use super::{Corners, Geometry, OperationError, Planned, Work, profile};
 use crate::cam::{Cutting, Side, Tool, ToolShape};
 
 /// How far the tip hangs below the chamfer, as a share of the tool's diameter: tips are weak and do not turn fast.
@@ -43,7 +43,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, width: f64) -> 
     let tool = Tool { diameter: 2.0 * cut.distance, ..work.tool.clone() };
     let cutting = Cutting { depth: work.cutting.start_depth + cut.depth, ..work.cutting.clone() };
     let narrow = Work { tool: &tool, cutting: &cutting, floor: work.top - cut.depth, ..*work };
-    profile::plan(&narrow, geometry, side)
+    profile::plan(&narrow, geometry, side, Corners::Round)
 }
 
 #[cfg(test)]

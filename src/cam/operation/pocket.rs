@@ -3,8 +3,9 @@
 //! Rings: the exact offsets of the outline, each with the path radius, from the middle outwards; where that would leave
 //! islands, [`spurs`] take them. Raster: the outline, then parallel lines from wall to wall.
 
+use super::relief::{insert, reliefs, relieved};
 use super::spurs::spurs;
-use super::{Geometry, Keep, Level, OperationError, Planned, Work, raster};
+use super::{Corners, Geometry, Keep, Level, OperationError, Planned, Work, fitted, raster};
 use crate::cam::contour::Contour;
 use crate::cam::entry::EntryPlace;
 use crate::cam::lay::{Notice, Pen};
@@ -29,6 +30,7 @@ pub(super) fn plan(
     geometry: &Geometry,
     pattern: Pattern,
     stepover: f64,
+    corners: Corners,
 ) -> Result<Planned, OperationError> {
     if geometry.area.is_empty() {
         return Err(OperationError::NoArea);
@@ -78,29 +80,25 @@ pub(super) fn plan(
             }
         }
     }
-    let mut shape = outline.closed.clone();
-    let mut contradictions = outline.contradictions;
-    let Cuts { mut moves, mut notices, mut count, .. } = cuts;
-    if work.cutting.allowance > 0.0 && work.cutting.finish {
-        let level = Level::new(&stays, radius, work.path_radius)?;
-        let solid = Solid::new(&level.closed, Remainder::Inside);
-        let floor = [work.floor];
-        let laying = work.laying(work.top, &floor, Some(Room { solid: &solid, distance: radius }), &geometry.holes);
-        let contours = work.contours(&level.path);
-        for stop in order(&contours, Point::origin()) {
-            let contour = &contours[stop.contour];
-            let entry = contour.entries[stop.entry];
-            let mut pen = Pen { moves: &mut moves, notices: &mut notices, contour: count };
-            laying.closed(entry.point, &contour.around_from(&entry), &TabLine::default(), &mut pen);
-            count += 1;
-        }
-        (shape, contradictions) = (level.closed, level.contradictions);
+    let is_finished = work.cutting.allowance > 0.0 && work.cutting.finish;
+    let last = if is_finished { Level::new(&stays, radius, work.path_radius)? } else { outline.clone() };
+    if is_finished {
+        cuts.finish(&last, radius);
     }
-    let distance = if work.cutting.finish || work.cutting.allowance == 0.0 { radius } else { rough_distance };
+    let mut path = fitted(&last.path);
+    let ways = insert(&mut path, &reliefs(&stays, corners, radius, work.path_radius), &mut cuts.notices);
+    let mut above = work.top;
+    for &height in heights.iter().filter(|_| !ways.is_empty()) {
+        ways.iter().for_each(|way| cuts.line(way.start, way.end, above, height));
+        above = height;
+    }
+    let Cuts { moves, notices, count, .. } = cuts;
+    let remainder = Remainder::Outside;
+    let distance = if is_finished { radius } else { rough_distance };
     let keep = Keep {
-        part: geometry.area.clone(),
-        kept: shape.reversed(),
-        remainder: Remainder::Outside,
+        part: relieved(&geometry.area, remainder, &ways, radius),
+        kept: relieved(&last.closed.reversed(), remainder, &ways, radius),
+        remainder,
         distance,
         floor: work.floor,
     };
@@ -110,7 +108,7 @@ pub(super) fn plan(
         notices,
         tabs: Vec::new(),
         holes: Vec::new(),
-        contradictions,
+        contradictions: last.contradictions,
     })
 }
 
@@ -142,6 +140,22 @@ struct Cuts<'a> {
 }
 
 impl Cuts<'_> {
+    /// The walls once more, at full depth.
+    fn finish(&mut self, level: &Level, distance: f64) {
+        let solid = Solid::new(&level.closed, Remainder::Inside);
+        let floor = [self.work.floor];
+        let room = Room { solid: &solid, distance };
+        let laying = self.work.laying(self.work.top, &floor, Some(room), &self.geometry.holes);
+        let contours = self.work.contours(&level.path);
+        for stop in order(&contours, Point::origin()) {
+            let contour = &contours[stop.contour];
+            let entry = contour.entries[stop.entry];
+            let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };
+            laying.closed(entry.point, &contour.around_from(&entry), &TabLine::default(), &mut pen);
+            self.count += 1;
+        }
+    }
+
     fn pen(&mut self) -> Pen<'_> {
         Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count }
     }

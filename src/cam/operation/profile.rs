@@ -1,6 +1,7 @@
 //! Along outlines, outside, inside or on them.
 
-use super::{Geometry, Keep, Level, OperationError, Planned, TabPlace, Work};
+use super::relief::{insert, reliefs, relieved};
+use super::{Corners, Geometry, Keep, Level, OperationError, Planned, TabPlace, Work, fitted};
 use crate::cam::lay::{Notice, Pen};
 use crate::cam::lead::Room;
 use crate::cam::order::order;
@@ -10,7 +11,7 @@ use crate::cam::walk::Walk;
 use crate::cam::{Contour, Remainder, Side};
 use crate::plane::{Point, Region};
 
-pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side) -> Result<Planned, OperationError> {
+pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corners) -> Result<Planned, OperationError> {
     if geometry.area.is_empty() {
         return Err(OperationError::NoArea);
     }
@@ -31,7 +32,10 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side) -> Result<Plann
         Some(skin) => heights.iter().copied().filter(|h| *h > skin).chain([skin]).collect(),
         None => heights.clone(),
     };
-    let contours = work.contours(&final_level.path);
+    let mut path = fitted(&final_level.path);
+    let corners = if side == Side::On { Corners::Round } else { corners };
+    let ways = insert(&mut path, &reliefs(&stays, corners, work.tool.radius(), work.path_radius), &mut cuts.notices);
+    let contours = work.contours_of(&path);
     match &rough {
         Some(rough) => {
             cuts.all(&work.contours(&rough.path), work.top, &above_skin, true);
@@ -54,7 +58,9 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side) -> Result<Plann
         Side::Outside | Side::On => (shape.closed, Remainder::Inside),
         Side::Inside => (shape.closed.reversed(), Remainder::Outside),
     };
-    let keep = Keep { part: geometry.area.clone(), kept, remainder, distance, floor: work.floor };
+    let part = relieved(&geometry.area, remainder, &ways, work.tool.radius());
+    let kept = relieved(&kept, remainder, &ways, work.tool.radius());
+    let keep = Keep { part, kept, remainder, distance, floor: work.floor };
     Ok(Planned {
         toolpath: work.toolpath(cuts.moves, cuts.count),
         keep: Some(keep),

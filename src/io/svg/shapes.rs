@@ -9,6 +9,7 @@ use super::drawing::Drawing;
 use super::error::{Place, ReadError, Warning};
 use super::gather::{Gathered, gather};
 use super::options::{ReadOptions, Strokes};
+use crate::io::unite::{self, Rule};
 use crate::plane::{Bounds, Region, Ring};
 use crate::units::DrawingScale;
 
@@ -76,6 +77,25 @@ impl Shapes {
     pub fn bounds(&self) -> Bounds {
         let rings = self.shapes.iter().flat_map(|s| s.area.rings.iter().chain(s.lines.iter().map(|l| &l.ring)));
         rings.fold(Bounds::EMPTY, |b, ring| b.union(ring.bounds()))
+    }
+
+    /// What the shapes with these indices fill, united. A shape that fills nothing counts with the closed lines that it
+    /// strokes, by the even-odd rule: drawings for machines often have no fills.
+    pub fn united(&self, which: &[usize]) -> Region {
+        let area = |shape: &DrawnShape| {
+            if !shape.area.is_empty() {
+                return shape.area.rings.clone();
+            }
+            let closed = shape.lines.iter().filter(|l| l.is_closed).map(|l| l.ring.clone());
+            unite::resolve(closed.collect(), Rule::EvenOdd)
+        };
+        let mut areas: Vec<Vec<Ring>> = which.iter().filter_map(|&k| self.shapes.get(k)).map(area).collect();
+        areas.retain(|rings| !rings.is_empty());
+        match areas.len() {
+            0 => Region::default(),
+            1 => Region::new(areas.remove(0)),
+            _ => Region::new(unite::resolve(areas.concat(), Rule::AtLeast(1))),
+        }
     }
 
     /// What lengths typed for the drawing are measured by.

@@ -1,0 +1,134 @@
+//! Every operation of a job held against its program as it was read back.
+//!
+//! Nothing of how the paths were planned is used: what must remain, how many tabs and holes were asked for and where, and the
+//! motions that the text asks for.
+
+use super::Side;
+use super::certificate::{ProgramStatistics, statistics};
+use super::gouge::{Gouge, deepest_cut};
+use super::islands::{Island, islands};
+use super::motion::{Motion, Program};
+use super::operation::{Keep, Planned};
+use super::removal::{Uncut, uncut};
+use super::setup::{Operation, OperationKind};
+use super::time::{Machine, estimate};
+
+/// How far a tool may pass below the top of a tab, in millimetres: rounding of the text.
+const TAB_ROUNDING: f64 = 0.002;
+
+/// How far from the middle of a tab its path is looked for, in millimetres: rounding and arc fitting.
+const ON_TAB: f64 = 0.005;
+
+/// How far from the middle of a hole, in tool radii, its bottom is looked for: bored holes are reached beside it.
+const IN_HOLE: f64 = 1.05;
+
+/// What a program says of one operation.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct OperationCheck {
+    /// What it is called.
+    pub label: String,
+    /// The number of its tool.
+    pub tool: u32,
+    /// Lengths and counts.
+    pub statistics: ProgramStatistics,
+    /// Seconds that it takes.
+    pub seconds: f64,
+    /// The deepest cut into what is drawn to remain.
+    pub gouge: Option<Gouge>,
+    /// The deepest cut beyond the boundary that the path was meant for.
+    pub overcut: Option<Gouge>,
+    /// What is left standing beside the outline; only of profiles.
+    pub uncut: Option<Uncut>,
+    /// What is left standing in a pocket.
+    pub islands: Vec<Island>,
+    /// Tabs that were asked for and placed, and those that the program leaves.
+    pub tabs: [usize; 2],
+    /// Holes that were asked for, and those that the program reaches the bottom of.
+    pub holes: [usize; 2],
+    /// Passes that were asked for, and levels that the program cuts; 0 asked where the depth follows from the shape.
+    pub passes: [usize; 2],
+}
+
+impl OperationCheck {
+    /// Whether the program does what was asked, but for what the tool cannot reach.
+    pub fn is_done(&self) -> bool {
+        self.tabs[0] == self.tabs[1]
+            && self.holes[0] == self.holes[1]
+            && (self.passes[0] == 0 || self.passes[0] <= self.passes[1])
+            && self.islands.is_empty()
+    }
+}
+
+/// The motions of `program` for each of its operations, in order: those behind each comment that names one.
+pub fn split_operations(program: &Program, comment: &str) -> Vec<Program> {
+    let starts: Vec<usize> = program.comments.iter().filter(|c| c.text.starts_with(comment)).map(|c| c.line).collect();
+    let of = |k: usize| {
+        let end = starts.get(k + 1).copied().unwrap_or(usize::MAX);
+        let motions = program.motions.iter().filter(|m| m.line > starts[k] && m.line < end);
+        Program { motions: motions.copied().collect(), comments: Vec::new(), ..program.clone() }
+    };
+    (0..starts.len()).map(of).collect()
+}
+
+/// Holds `program`, which has the motions of one operation, against what was asked for.
+pub fn check_operation(
+    program: &Program,
+    operation: &Operation,
+    planned: &Planned,
+    tool: &super::Tool,
+    stock_top: f64,
+    machine: &Machine,
+) -> OperationCheck {
+    let against = |f: &dyn Fn(&Keep) -> Option<Gouge>| planned.keep.as_ref().and_then(f);
+    let statistics = statistics(program, stock_top);
+    let is_through_all = |side: Side| side != Side::On;
+    let uncut = match (&operation.kind, &planned.keep) {
+        (OperationKind::Profile { side, .. }, Some(keep)) if is_through_all(*side) => {
+            Some(uncut(program, &keep.part, keep.remainder, keep.distance, keep.floor))
+        }
+        _ => None,
+    };
+    let islands = match (&operation.kind, &planned.keep) {
+        (OperationKind::Pocket { .. } | OperationKind::Drill { .. }, Some(keep)) => {
+            islands(program, &keep.kept, tool.radius(), keep.floor)
+        }
+        _ => Vec::new(),
+    };
+    let cutting = &operation.cutting;
+    let asked_passes = match operation.kind {
+        OperationKind::Profile { .. } | OperationKind::Pocket { .. } if planned.toolpath.contour_count > 0 => {
+            cutting.pass_heights(stock_top).len()
+        }
+        _ => 0,
+    };
+    OperationCheck {
+        label: operation.label.clone(),
+        tool: tool.number,
+        seconds: estimate(program, machine).total_seconds(),
+        gouge: against(&|k| deepest_cut(program, &k.part, k.remainder, k.distance, stock_top)),
+        overcut: against(&|k| deepest_cut(program, &k.kept, k.remainder, k.distance, stock_top)),
+        uncut,
+        islands,
+        tabs: [planned.tabs.len(), planned.tabs.iter().filter(|tab| stands(program, tab)).count()],
+        holes: [planned.holes.len(), planned.holes.iter().filter(|hole| is_open(program, hole)).count()],
+        passes: [asked_passes, statistics.passes],
+        statistics,
+    }
+}
+
+/// Whether no motion cuts into a tab, and some passes over it.
+fn stands(program: &Program, tab: &super::TabPlace) -> bool {
+    let over: Vec<&Motion> =
+        program.motions.iter().filter(|m| m.is_feed() && m.trace().any(|s| s.is_nearer(tab.at, ON_TAB))).collect();
+    let lowest = over.iter().map(|m| m.lowest()).fold(f64::INFINITY, f64::min);
+    lowest.is_finite() && lowest >= tab.top - TAB_ROUNDING
+}
+
+/// Whether some motion at a feed reaches the bottom of a hole.
+fn is_open(program: &Program, hole: &super::Hole) -> bool {
+    let reach = IN_HOLE * 0.5 * hole.diameter;
+    program
+        .motions
+        .iter()
+        .any(|m| m.is_feed() && (m.to.xy() - hole.center).norm() <= reach && m.to.z <= hole.bottom + TAB_ROUNDING)
+}

@@ -1,0 +1,239 @@
+//! A job with operations: from the drawing and the job file to programs that are held against both.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result, anyhow, bail};
+
+use super::select::select;
+use super::setup_report::SetupReport;
+use super::{FormatArg, MillArgs, Verdict, target};
+use crate::cam::{
+    self, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Setup, SetupFile, Step,
+    check_operation, plan_operation, split_operations,
+};
+use crate::cli::{ExitStatus, input, output};
+use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, OPERATION_COMMENT, Units, WriteOptions};
+use crate::io::svg::Shapes;
+use crate::plane::{Point, Vector};
+use crate::preview::{self, DEFAULT_SIZE, Scene};
+
+/// A program of the job, as the machine gets it.
+pub(super) struct Written {
+    pub(super) path: PathBuf,
+    pub(super) text: String,
+    pub(super) program: Program,
+    pub(super) findings: Vec<Finding>,
+}
+
+/// An operation with what was planned for it and what its program does.
+pub(super) struct Done<'a> {
+    pub(super) operation: &'a Operation,
+    pub(super) planned: Planned,
+    pub(super) check: OperationCheck,
+}
+
+/// Runs the command for a job file with operations.
+///
+/// # Errors
+/// Where the drawing or the job makes no sense, or a file cannot be written.
+pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus> {
+    let name = args.input.display();
+    let target = target(args);
+    output::keep_input(&args.input, &target)?;
+    output::keep_input(job, &target)?;
+    let shapes = args.reading.read_shapes(&args.input)?;
+    let Some(mm_per_unit) = shapes.mm_per_unit else {
+        bail!(
+            "{name}: the drawing has no physical size: say how many of its units make an inch (--dpi 96) or how wide \
+             the part is (--width 100mm)"
+        );
+    };
+    let mut file: SetupFile = text.parse().with_context(|| job.display().to_string())?;
+    read_machine_settings(&mut file, job)?;
+    let setup = file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string())?;
+    let dialect = input::dialect_beside(&setup.rig.dialect, job)?;
+    let shift = shift(file.stock.zero.unwrap_or(cam::DEFAULT_ORIGIN), &shapes, mm_per_unit);
+    let options = WriteOptions {
+        units: if setup.rig.inches { Units::Inches } else { Units::Millimetres },
+        arcs: if setup.rig.arcs { Arcs::Arcs } else { Arcs::Lines },
+    };
+
+    let place = |o: &Operation| format!("{}: line {}: operation \"{}\"", job.display(), o.line, o.label);
+    let mut planned: Vec<Planned> = Vec::new();
+    let mut holes: Vec<Hole> = Vec::new();
+    for operation in &setup.operations {
+        let geometry = geometry(operation, &shapes, mm_per_unit, shift, &holes).with_context(|| place(operation))?;
+        let plan = plan_operation(&setup, operation, &geometry).with_context(|| place(operation))?;
+        holes.extend(&plan.holes);
+        planned.push(plan);
+    }
+    let steps: Vec<Step> = setup
+        .operations
+        .iter()
+        .zip(&planned)
+        .map(|(o, p)| Step { label: o.label.clone(), tool: setup.tool_of(o).clone(), toolpath: p.toolpath.clone() })
+        .collect();
+    let written = write(args, &setup, &dialect, options, &steps, &target)?;
+    let done = hold_against(&setup, planned, &written)?;
+    let unsafe_travel = beyond_travel(&setup, &written);
+
+    let mut contents: Vec<(PathBuf, Vec<u8>)> =
+        written.iter().map(|w| (w.path.clone(), w.text.clone().into_bytes())).collect();
+    if !args.no_preview && target != Path::new("-") {
+        for program in &written {
+            let picture = program.path.with_extension("png");
+            output::keep_input(&args.input, &picture)?;
+            contents.push((picture, draw(&setup, program)?));
+        }
+    }
+    if target == Path::new("-") && written.len() > 1 {
+        bail!("the job takes {} programs, one a tool: name a file with --output", written.len());
+    }
+    output::write_together(&contents.iter().map(|(p, b)| (p.as_path(), b.as_slice())).collect::<Vec<_>>())?;
+    let report = SetupReport {
+        input: &args.input,
+        job,
+        setup: &setup,
+        dialect: &dialect.name,
+        done: &done,
+        written: &written,
+        unsafe_travel: &unsafe_travel,
+        files: &contents.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>(),
+    };
+    let text = match args.format {
+        FormatArg::Text => report.text(),
+        FormatArg::Json => report.json()?,
+    };
+    if target == Path::new("-") {
+        output::say(&text);
+    } else {
+        output::print(&text)?;
+    }
+    Ok(match report.verdict() {
+        Verdict::Good => ExitStatus::Done,
+        Verdict::Failed => ExitStatus::CheckFailed,
+    })
+}
+
+/// What GRBL answered to `$$`, where the job file names a file with it.
+fn read_machine_settings(file: &mut SetupFile, job: &Path) -> Result<()> {
+    let Some(name) = &file.machine.settings else { return Ok(()) };
+    let path = job.parent().unwrap_or(Path::new("")).join(name);
+    let text = input::read_text(&path)?;
+    let settings = gcode::grbl_settings::read(&text).with_context(|| path.display().to_string())?;
+    file.machine.take(&settings.machine(&cam::Machine::default()), settings.travel);
+    Ok(())
+}
+
+/// What brings the origin to where the job wants it, in millimetres.
+fn shift(zero: Origin, shapes: &Shapes, mm_per_unit: f64) -> Vector {
+    let bounds = shapes.bounds();
+    match zero {
+        Origin::Corner => -bounds.min.coords * mm_per_unit,
+        Origin::Center => -bounds.center().coords * mm_per_unit,
+        Origin::Drawing => Vector::zeros(),
+    }
+}
+
+/// The shapes of an operation in the machine's coordinates.
+fn geometry(operation: &Operation, shapes: &Shapes, scale: f64, shift: Vector, holes: &[Hole]) -> Result<Geometry> {
+    let chosen = select(shapes, &operation.select)?;
+    let area = shapes.united(&chosen).scaled(scale).translated(shift);
+    let lines = match operation.kind {
+        OperationKind::Engrave => chosen
+            .iter()
+            .flat_map(|&k| &shapes.shapes[k].lines)
+            .map(|line| cam::CutLine { ring: line.ring.scaled(scale).translated(shift), is_closed: line.is_closed })
+            .collect(),
+        _ => Vec::new(),
+    };
+    Ok(Geometry { area, lines, holes: holes.to_vec() })
+}
+
+/// The texts, and what they say when they are read back.
+fn write(
+    args: &MillArgs,
+    setup: &Setup,
+    dialect: &Dialect,
+    options: WriteOptions,
+    steps: &[Step],
+    target: &Path,
+) -> Result<Vec<Written>> {
+    let header = header(args, setup, dialect);
+    let files = gcode::write_files(steps, &header, dialect, options)?;
+    let mut written = Vec::with_capacity(files.len());
+    for file in files {
+        let path = match (file.suffix.as_str(), target.file_stem()) {
+            ("", _) | (_, None) => target.to_path_buf(),
+            (suffix, Some(stem)) => {
+                let extension = target.extension().unwrap_or("nc".as_ref());
+                let name = format!("{}{suffix}.{}", stem.to_string_lossy(), extension.to_string_lossy());
+                target.with_file_name(name)
+            }
+        };
+        let findings = gcode::lint(&file.text, &LintOptions { dialect, stock_top: setup.stock.top });
+        let program =
+            gcode::read_as(&file.text, dialect).context("the program cannot be read back; please report this")?;
+        written.push(Written { path, text: file.text, program, findings });
+    }
+    Ok(written)
+}
+
+/// The settings that stand at the top of the programs.
+fn header(args: &MillArgs, setup: &Setup, dialect: &Dialect) -> Vec<String> {
+    let mut lines = vec![
+        format!("clopen {}", env!("CARGO_PKG_VERSION")),
+        format!("drawing {}", args.input.file_name().map_or("-".into(), |n| n.to_string_lossy().into_owned())),
+        format!("{DIALECT_COMMENT}{}", dialect.name),
+    ];
+    if let Some(thickness) = setup.stock.thickness {
+        lines.push(format!("stock {thickness} mm thick, top at {} mm", setup.stock.top));
+    }
+    lines
+}
+
+/// Every operation against the part of the programs that is its own.
+fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]) -> Result<Vec<Done<'a>>> {
+    let runs: Vec<Program> = written.iter().flat_map(|w| split_operations(&w.program, OPERATION_COMMENT)).collect();
+    if runs.len() != planned.len() {
+        return Err(anyhow!(
+            "the programs have {} operations and the job {}; please report this",
+            runs.len(),
+            planned.len()
+        ));
+    }
+    let all = setup.operations.iter().zip(planned).zip(&runs);
+    Ok(all
+        .map(|((operation, planned), run)| {
+            let tool = setup.tool_of(operation);
+            let check = check_operation(run, operation, &planned, tool, setup.stock.top, &setup.rig.limits);
+            Done { operation, planned, check }
+        })
+        .collect())
+}
+
+/// Which axes would travel farther than the machine can.
+fn beyond_travel(setup: &Setup, written: &[Written]) -> Vec<String> {
+    let Some(travel) = setup.rig.travel else { return Vec::new() };
+    let places = || written.iter().flat_map(|w| &w.program.motions).map(|m| m.to);
+    let span = |axis: usize| {
+        let values = || places().map(|p| p[axis]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    ["x", "y", "z"]
+        .iter()
+        .zip(0..3)
+        .filter(|(_, axis)| span(*axis) > travel[*axis])
+        .map(|(name, axis)| format!("{name} travels {:.1} mm, and the machine {:.1} mm", span(axis), travel[axis]))
+        .collect()
+}
+
+fn draw(setup: &Setup, written: &Written) -> Result<Vec<u8>> {
+    let scene = Scene { stock_top: setup.stock.top, ..Scene::new(&written.program) };
+    preview::program(&scene, DEFAULT_SIZE).context("the picture cannot be drawn; --no-preview leaves it out")
+}
+
+/// A place in words.
+pub(super) fn at(p: Point) -> String {
+    format!("({:.3}, {:.3})", p.x + 0.0, p.y + 0.0)
+}

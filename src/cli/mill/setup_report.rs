@@ -1,0 +1,197 @@
+//! What a job with operations came to, in words and as JSON.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use serde_json::json;
+
+use super::setup::{Done, Written, at};
+use crate::cam::{Notice, Setup, Side, OperationKind, estimate};
+use crate::cli::report::{GOUGE_LIMIT, Verdict};
+use crate::gcode::Severity;
+
+/// All that is to be told of a job. Places are in the machine's coordinates.
+pub(super) struct SetupReport<'a> {
+    pub(super) input: &'a Path,
+    pub(super) job: &'a Path,
+    pub(super) setup: &'a Setup,
+    pub(super) dialect: &'a str,
+    pub(super) done: &'a [Done<'a>],
+    pub(super) written: &'a [Written],
+    pub(super) unsafe_travel: &'a [String],
+    pub(super) files: &'a [PathBuf],
+}
+
+/// What is wrong with an operation, and what is only to be known.
+struct Words {
+    failures: Vec<String>,
+    notes: Vec<String>,
+}
+
+impl SetupReport<'_> {
+    pub(super) fn verdict(&self) -> Verdict {
+        let refused = self.written.iter().flat_map(|w| &w.findings).any(|f| f.severity == Severity::Error);
+        let failed = self.done.iter().any(|d| !words(d, self.setup).failures.is_empty());
+        if failed || refused || !self.unsafe_travel.is_empty() { Verdict::Failed } else { Verdict::Good }
+    }
+
+    pub(super) fn text(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{:<24}{:>5}{:>7}{:>10}{:>9}{:>8}{:>11}{:>9}",
+            "operation", "tool", "passes", "cut mm", "depth", "time s", "gouge mm", "checked"
+        );
+        for done in self.done {
+            let check = &done.check;
+            let gouge = check.gouge.map_or("-".to_owned(), |g| format!("{:.4}", g.depth_mm.max(0.0)));
+            let verdict = if words(done, self.setup).failures.is_empty() { "good" } else { "FAILED" };
+            let label: String = check.label.chars().take(23).collect();
+            let _ = writeln!(
+                text,
+                "{label:<24}{:>5}{:>7}{:>10.1}{:>9.3}{:>8.1}{gouge:>11}{verdict:>9}",
+                check.tool, check.statistics.passes, check.statistics.cut_length_mm, check.statistics.depth_mm, check.seconds
+            );
+        }
+        let seconds: f64 = self.written.iter().map(|w| estimate(&w.program, &self.setup.rig.limits).total_seconds()).sum();
+        let _ = writeln!(text, "{:<24}{}", "time", minutes(seconds));
+        for done in self.done {
+            let words = words(done, self.setup);
+            for failure in words.failures {
+                let _ = writeln!(text, "FAILED  {}: {failure}", done.check.label);
+            }
+            for note in words.notes {
+                let _ = writeln!(text, "note    {}: {note}", done.check.label);
+            }
+        }
+        for warning in self.setup.cutting_warnings() {
+            let _ = writeln!(text, "note    {warning}");
+        }
+        for travel in self.unsafe_travel {
+            let _ = writeln!(text, "FAILED  {travel}");
+        }
+        for written in self.written {
+            for finding in &written.findings {
+                let severity = format!("{:?}", finding.severity).to_lowercase();
+                let _ = writeln!(text, "{}:{}: {severity}: {}", written.path.display(), finding.line, finding.message);
+            }
+        }
+        for file in self.files {
+            let _ = writeln!(text, "{:<24}{}", "written", file.display());
+        }
+        text
+    }
+
+    pub(super) fn json(&self) -> Result<String> {
+        let operations: Vec<_> = self
+            .done
+            .iter()
+            .map(|done| {
+                let words = words(done, self.setup);
+                json!({
+                    "check": done.check,
+                    "line": done.operation.line,
+                    "tabs": done.planned.tabs.iter().map(|t| [t.at.x, t.at.y]).collect::<Vec<_>>(),
+                    "failures": words.failures,
+                    "notes": words.notes,
+                })
+            })
+            .collect();
+        let programs: Vec<_> = self
+            .written
+            .iter()
+            .map(|w| {
+                let time = estimate(&w.program, &self.setup.rig.limits);
+                json!({ "path": w.path, "time": time, "findings": w.findings })
+            })
+            .collect();
+        let value = json!({
+            "drawing": self.input,
+            "job": self.job,
+            "dialect": self.dialect,
+            "operations": operations,
+            "programs": programs,
+            "warnings": self.setup.cutting_warnings(),
+            "beyond_travel": self.unsafe_travel,
+            "gouge_limit_mm": GOUGE_LIMIT,
+            "good": self.verdict() == Verdict::Good,
+            "written": self.files,
+        });
+        Ok(serde_json::to_string_pretty(&value)? + "\n")
+    }
+}
+
+fn minutes(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    if whole < 60 { format!("{seconds:.1} s") } else { format!("{} min {:02} s", whole / 60, whole % 60) }
+}
+
+fn words(done: &Done, setup: &Setup) -> Words {
+    let (check, planned) = (&done.check, &done.planned);
+    let mut failures = Vec::new();
+    let mut notes = Vec::new();
+    if let Some(gouge) = check.gouge.filter(|g| g.depth_mm > GOUGE_LIMIT) {
+        failures.push(format!("line {} cuts {:.4} mm into what must remain", gouge.line, gouge.depth_mm));
+    }
+    for (what, [asked, found]) in [("tabs", check.tabs), ("holes", check.holes)] {
+        if asked != found {
+            failures.push(format!("{asked} {what} were asked for, and the program has {found}"));
+        }
+    }
+    if check.passes[0] > check.passes[1] {
+        failures.push(format!("{} passes were asked for, and the program has {}", check.passes[0], check.passes[1]));
+    }
+    for island in &check.islands {
+        failures.push(format!(
+            "{:.3} mm stay standing at ({:.3}, {:.3})",
+            island.thickness_mm, island.x_mm, island.y_mm
+        ));
+    }
+    if planned.contradictions > 0 {
+        failures.push(format!("{} places of the path are not proved", planned.contradictions));
+    }
+    if let Some(uncut) = &check.uncut {
+        let held = !planned.tabs.is_empty();
+        if !uncut.is_cut_free && !held && done.operation.cutting.onion_skin.is_none() && is_closed(done) {
+            failures.push("the cut does not go all around".to_owned());
+        }
+        if let Some(place) = uncut.places.first().filter(|_| !held) {
+            notes.push(format!(
+                "the tool leaves {:.2} mm² standing beside the outline in {} places, the largest {:.3} mm thick at ({:.3}, {:.3}): a \
+                 smaller tool, rest-of, or corners = \"dogbone\" take it",
+                uncut.area_mm2,
+                uncut.places.len(),
+                place.depth_mm,
+                place.x_mm,
+                place.y_mm
+            ));
+        }
+    }
+    for notice in &planned.notices {
+        match *notice {
+            Notice::LeadSkipped(p) => notes.push(format!("no room for a lead at {}", at(p))),
+            Notice::HelixSkipped(p) => notes.push(format!("no room for a helix at {}: the tool ramps along the path", at(p))),
+            Notice::NoHole(p) => notes.push(format!("no drilled hole near {} takes the tool: it ramps along the path", at(p))),
+            Notice::CornerSkipped(p) => notes.push(format!("the tool does not come near the corner at {}: it stays round", at(p))),
+            Notice::TabsDropped(p, count) => failures.push(format!("{count} tabs find no place on the outline at {}: ask for fewer or narrower ones", at(p))),
+            Notice::TabsOnArcs(p, count) => notes.push(format!("{count} tabs stand on tight arcs of the outline at {}", at(p))),
+        }
+    }
+    let cutting = &done.operation.cutting;
+    let through = setup.stock.thickness.is_some_and(|t| cutting.depth >= t);
+    if through && planned.tabs.is_empty() && cutting.onion_skin.is_none() && cutting.finish && is_profile(done) {
+        notes.push("the part is loose when its walls are finished: tabs or an onion skin hold it".to_owned());
+    }
+    Words { failures, notes }
+}
+
+fn is_profile(done: &Done) -> bool {
+    matches!(done.operation.kind, OperationKind::Profile { .. })
+}
+
+/// Whether the operation goes around whole outlines.
+fn is_closed(done: &Done) -> bool {
+    matches!(done.operation.kind, OperationKind::Profile { rest_of: None, side, .. } if side != Side::On)
+}
