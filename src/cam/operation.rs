@@ -211,6 +211,11 @@ impl<'a> Work<'a> {
         }
     }
 
+    /// What stays, closed for a path at `distance`.
+    fn level(&self, stays: &Region, distance: f64) -> Result<Level, OffsetError> {
+        Level::new(stays, distance, self.path_radius, self.cutting.topology)
+    }
+
     fn settings(&self) -> Settings {
         Settings {
             feed: self.cutting.feed,
@@ -287,15 +292,12 @@ struct Level {
 }
 
 impl Level {
-    fn new(stays: &Region, distance: f64, path_radius: f64) -> Result<Level, OffsetError> {
+    fn new(stays: &Region, distance: f64, path_radius: f64, topology: Topology) -> Result<Level, OffsetError> {
         let Ok(radius) = Radius::new(distance + path_radius) else {
             return Ok(Level { closed: stays.clone(), path: stays.clone(), contradictions: 0 });
         };
-        let outcome = rolling::close(stays, radius, Topology::Merge);
+        let outcome = rolling::close(stays, radius, topology);
         let path = offset(&outcome.region, distance)?;
         Ok(Level { closed: outcome.region, path, contradictions: outcome.contradictions })
     }
 }
-
-#[cfg(test)]
-mod tests;

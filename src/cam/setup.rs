@@ -6,6 +6,7 @@ mod resolve;
 mod sample;
 
 use super::{Direction, Entry, Machine, PathRadius, Side, Tool};
+use crate::rolling::Topology;
 use crate::units::Speed;
 pub use file::{InvalidSetup, SelectFile, SetupFile, SetupProblem, Words};
 pub use sample::{SampleShape, commented_sample};
@@ -216,6 +217,8 @@ pub struct Cutting {
     pub direction: Direction,
     /// Smallest radius of the path in inside corners.
     pub path_radius: PathRadius,
+    /// What happens where parts come nearer to each other than the tool.
+    pub topology: Topology,
     /// How the tool enters the stock.
     pub entry: Entry,
     /// Radius of the arcs on which the tool comes to outlines and leaves them, where it does.

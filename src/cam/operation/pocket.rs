@@ -38,7 +38,7 @@ pub(super) fn plan(
     let stays = Side::Inside.kept_material(&geometry.area);
     let radius = work.tool.radius();
     let rough_distance = radius + work.cutting.allowance;
-    let outline = Level::new(&stays, rough_distance, work.path_radius)?;
+    let outline = work.level(&stays, rough_distance)?;
     if outline.path.is_empty() {
         return Err(OperationError::TooLarge { diameter: work.tool.diameter });
     }
@@ -55,7 +55,7 @@ pub(super) fn plan(
     let heights = work.cutting.pass_heights(work.stock_top);
     match pattern {
         Pattern::Rings => {
-            let rings = rings(&stays, &outline.path, rough_distance, stepover, work.path_radius);
+            let rings = rings(work, &stays, &outline.path, rough_distance, stepover);
             let contours: Vec<Contour> = rings.iter().flat_map(|level| work.contours(level)).collect();
             let paths: Vec<Vec<Segment>> = contours.iter().map(|c| c.path.segments().collect()).collect();
             let islands = spurs(&outline.path, &paths, radius);
@@ -81,7 +81,7 @@ pub(super) fn plan(
         }
     }
     let is_finished = work.cutting.allowance > 0.0 && work.cutting.finish;
-    let last = if is_finished { Level::new(&stays, radius, work.path_radius)? } else { outline.clone() };
+    let last = if is_finished { work.level(&stays, radius)? } else { outline.clone() };
     if is_finished {
         cuts.finish(&last, radius);
     }
@@ -113,12 +113,14 @@ pub(super) fn plan(
 }
 
 /// The outline, and inside of it ring after ring while there is room.
-fn rings(stays: &Region, outline: &Region, distance: f64, stepover: f64, path_radius: f64) -> Vec<Region> {
+fn rings(work: &Work, stays: &Region, outline: &Region, distance: f64, stepover: f64) -> Vec<Region> {
     let mut levels = vec![outline.clone()];
     for k in 1..MOST_RINGS {
         let at = distance + k as f64 * stepover;
-        let radii = (0..=HALVINGS).map(|h| path_radius * 0.5f64.powi(h as i32)).chain([0.0]);
-        let level = radii.filter_map(|radius| Level::new(stays, at, radius).ok()).find(|l| !l.path.is_empty());
+        let radii = (0..=HALVINGS).map(|h| work.path_radius * 0.5f64.powi(h as i32)).chain([0.0]);
+        let level = radii
+            .filter_map(|radius| Level::new(stays, at, radius, work.cutting.topology).ok())
+            .find(|l| !l.path.is_empty());
         match level {
             Some(level) => levels.push(level.path),
             None => break,

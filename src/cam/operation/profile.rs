@@ -1,7 +1,7 @@
 //! Along outlines, outside, inside or on them.
 
 use super::relief::{insert, reliefs, relieved};
-use super::{Corners, Geometry, Keep, Level, OperationError, Planned, TabPlace, Work, fitted};
+use super::{Corners, Geometry, Keep, OperationError, Planned, TabPlace, Work, fitted};
 use crate::cam::lay::{Notice, Pen};
 use crate::cam::lead::Room;
 use crate::cam::order::order;
@@ -17,11 +17,9 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
     }
     let stays = side.kept_material(&geometry.area);
     let distance = if side == Side::On { 0.0 } else { work.tool.radius() };
-    let final_level = Level::new(&stays, distance, work.path_radius)?;
+    let final_level = work.level(&stays, distance)?;
     let rough = match work.cutting.allowance {
-        allowance if allowance > 0.0 && side != Side::On => {
-            Some(Level::new(&stays, distance + allowance, work.path_radius)?)
-        }
+        allowance if allowance > 0.0 && side != Side::On => Some(work.level(&stays, distance + allowance)?),
         _ => None,
     };
     let mut cuts = Cuts::new(work, geometry, &final_level.closed, distance, side);

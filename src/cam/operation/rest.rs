@@ -41,12 +41,12 @@ pub(super) fn plan(
     }
     let stays = side.kept_material(&geometry.area);
     let radius = work.tool.radius();
-    let wall = Level::new(&stays, radius, work.path_radius)?;
-    let left = Level::new(&stays, larger, 0.0)?;
+    let wall = work.level(&stays, radius)?;
+    let left = Level::new(&stays, larger, 0.0, work.cutting.topology)?;
     let left = Solid::new(&left.closed, Remainder::Inside);
     let mut rings: Vec<Vec<Vec<Segment>>> = vec![stretches(work, &wall, &left, radius)];
     for k in 1..MOST_RINGS {
-        let Ok(level) = Level::new(&stays, radius + k as f64 * stepover, work.path_radius) else { break };
+        let Ok(level) = work.level(&stays, radius + k as f64 * stepover) else { break };
         let found = stretches(work, &level, &left, radius);
         if found.is_empty() {
             break;
