@@ -7,6 +7,7 @@ use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 
 use super::output;
+use crate::gcode::Dialect;
 use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, Parts, ReadOptions, Selection, Strokes, Warning};
 use crate::plane::{Region, Stretch};
 use crate::units::{DrawingScale, Length};
@@ -55,6 +56,21 @@ pub(super) fn millimetres(length: Length, option: &str) -> Result<f64> {
     length
         .to_millimetres(&no_drawing)
         .map_err(|_| anyhow::anyhow!("{option} needs a physical length, for example 3mm; {length} is none"))
+}
+
+/// The dialect that was asked for, by its name or by a file (`.toml`).
+///
+/// # Errors
+/// Lists the names, or names the file and the key that is wrong.
+pub(super) fn dialect(asked: &str) -> Result<Dialect> {
+    let path = Path::new(asked);
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("toml")) {
+        return Ok(Dialect::named(asked)?.clone());
+    }
+    // A name in a program is one word of ASCII.
+    let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let name: String = stem.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect();
+    Dialect::parse(&read_text(path)?, &name).with_context(|| format!("{}: this is no dialect", path.display()))
 }
 
 /// How a drawing is read.

@@ -14,7 +14,7 @@ use crate::cam::{
     Side, Toolpath,
 };
 use crate::check::{LostFeature, lost_features};
-use crate::gcode::{self, Arcs, Controller, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
+use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
 use crate::io::svg::Drawing;
 use crate::plane::Region;
 use crate::preview::{self, DEFAULT_SIZE, Scene};
@@ -28,7 +28,6 @@ struct Settings {
     job: Job,
     topology: Topology,
     dialect: Dialect,
-    controller: Controller,
     options: WriteOptions,
 }
 
@@ -91,7 +90,7 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let report = MillReport {
         input: &args.input,
         job,
-        dialect: settings.dialect.name,
+        dialect: &settings.dialect.name,
         options: settings.options,
         part: &plan.part,
         certificate: &checked.certificate,
@@ -123,15 +122,14 @@ fn read_settings(args: &MillArgs, drawing: &Drawing) -> Result<Settings> {
         let file: JobFile = input::read_text(path)?.parse().with_context(|| path.display().to_string())?;
         typed = typed.over(file);
     }
-    let (dialect, controller) = match typed.dialect.unwrap_or_default() {
-        DialectName::Grbl => (gcode::GRBL, Controller::Grbl),
-        DialectName::LinuxCnc => (gcode::LINUXCNC, Controller::LinuxCnc),
+    let dialect = match typed.dialect.unwrap_or_default() {
+        DialectName::Grbl => gcode::GRBL.clone(),
+        DialectName::LinuxCnc => gcode::LINUXCNC.clone(),
     };
     Ok(Settings {
         job: typed.resolve(&drawing.scale())?,
         topology: typed.topology.unwrap_or(Topology::Merge),
         dialect,
-        controller,
         options: WriteOptions {
             units: if typed.inches == Some(true) { Units::Inches } else { Units::Millimetres },
             arcs: if typed.no_arcs == Some(true) { Arcs::Lines } else { Arcs::Arcs },
@@ -195,10 +193,10 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
 
 /// Writes the program, and from here on believes only what it says.
 fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
-    let Settings { job, dialect, controller, options, .. } = settings;
+    let Settings { job, dialect, options, .. } = settings;
     let header = header(args, settings, plan);
     let text = gcode::write(&plan.toolpath, &header, dialect, *options)?;
-    let findings = gcode::lint(&text, &LintOptions { controller: *controller, stock_top: job.stock_top });
+    let findings = gcode::lint(&text, &LintOptions { dialect, stock_top: job.stock_top });
     let program = gcode::read(&text).context("the program cannot be read back; please report this")?;
     let machine = Machine { acceleration: [job.acceleration; 3], ..Machine::default() };
     let remainder = match job.side {

@@ -5,12 +5,14 @@
 mod brief;
 mod font_length;
 mod length;
+mod nearest;
 mod radius;
 mod speed;
 
 pub use brief::Brief;
 pub use font_length::{FontLength, ParseFontLengthError};
 pub use length::{DrawingScale, Length, ParseLengthError, ResolveLengthError};
+pub use nearest::nearest_name;
 pub use radius::{InvalidRadius, Radius};
 pub use speed::{ParseSpeedError, Speed};
 
