@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 
 use assert_cmd::Command;
-use clopen::gcode::{Controller, LintOptions, Severity, lint, read};
+use clopen::gcode::{Dialect, LintOptions, Severity, lint, read};
 use serde_json::Value;
 
 /// The deepest cut into the part that a program may make, in millimetres.
@@ -104,17 +104,17 @@ fn two_words_make_a_program_and_a_picture_in_the_current_folder() {
 
 #[test]
 fn every_sample_spares_the_part_in_every_setting() {
-    let settings: [(&[&str], Controller); 7] = [
-        (&[], Controller::Grbl),
-        (&["--dialect", "linuxcnc"], Controller::LinuxCnc),
-        (&["--no-arcs", "--tool-diameter", "6"], Controller::Grbl),
-        (&["--inches", "--direction", "conventional"], Controller::Grbl),
-        (&["--dialect", "linuxcnc", "--inches", "--entry", "plunge", "--path-radius", "0"], Controller::LinuxCnc),
-        (&["--side", "inside", "--path-radius", "2mm"], Controller::Grbl),
-        (&["--topology", "keep", "--tool-diameter", "1"], Controller::Grbl),
+    let settings: [(&[&str], &str); 7] = [
+        (&[], "grbl"),
+        (&["--dialect", "linuxcnc"], "linuxcnc"),
+        (&["--no-arcs", "--tool-diameter", "6"], "grbl"),
+        (&["--inches", "--direction", "conventional"], "grbl"),
+        (&["--dialect", "linuxcnc", "--inches", "--entry", "plunge", "--path-radius", "0"], "linuxcnc"),
+        (&["--side", "inside", "--path-radius", "2mm"], "grbl"),
+        (&["--topology", "keep", "--tool-diameter", "1"], "grbl"),
     ];
     for drawing in samples() {
-        for (setting, controller) in settings {
+        for (setting, dialect) in settings {
             let here = folder();
             let mut arguments = vec![drawing.to_str().unwrap(), "-o", "part.nc", "--no-preview", "--format", "json"];
             arguments.extend(setting);
@@ -144,7 +144,8 @@ fn every_sample_spares_the_part_in_every_setting() {
             {
                 assert!(smallest > promised - RADIUS_ROUNDING, "{place}: radius {smallest}, promised {promised}");
             }
-            let findings = lint(&text, &LintOptions { controller, stock_top: 0.0 });
+            let dialect = Dialect::named(dialect).unwrap();
+            let findings = lint(&text, &LintOptions { dialect, stock_top: 0.0 });
             assert!(findings.iter().all(|f| f.severity != Severity::Error), "{place}: {findings:?}");
         }
     }
@@ -409,7 +410,7 @@ fn what_was_written_for_one_controller_is_linted_for_it() {
     assert!(text.contains("G64"));
     let output = lint(&["part.nc"]);
     assert!(output.status.code() == Some(0) && output.stdout.is_empty(), "{}", stdout(&output));
-    assert_eq!(lint(&["part.nc", "--controller", "both"]).status.code(), Some(1));
+    assert_eq!(lint(&["part.nc", "--dialect", "portable"]).status.code(), Some(1));
     // The same from somebody else runs on either, or it is said.
     draw(dir.path(), "other.nc", &text.replace("(clopen", "(other"));
     assert_eq!(lint(&["other.nc"]).status.code(), Some(1));

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use clopen::cam::{Direction, Entry, Job, MotionKind, Origin, PathRadius, Side, plan};
-use clopen::gcode::{Controller, Dialect, GRBL, LintOptions, WriteOptions, lint, read, write};
+use clopen::gcode::{Dialect, LintOptions, WriteOptions, lint, read, write};
 use clopen::plane::{Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Vertex};
 use clopen::rolling::{Topology, close};
 use clopen::units::Radius;
@@ -102,13 +102,9 @@ proptest! {
             return Ok(());
         }
         let toolpath = plan(&job, &part, &closed).map_err(|e| TestCaseError::fail(e.to_string()))?;
-        let (dialect, controller) = if linuxcnc {
-            (Dialect::by_name("linuxcnc").unwrap(), Controller::LinuxCnc)
-        } else {
-            (GRBL, Controller::Grbl)
-        };
-        let text = write(&toolpath, &job.summary(), &dialect, WriteOptions::default()).unwrap();
-        let findings = lint(&text, &LintOptions { controller, stock_top: job.stock_top });
+        let dialect = Dialect::named(if linuxcnc { "linuxcnc" } else { "grbl" }).unwrap();
+        let text = write(&toolpath, &job.summary(), dialect, WriteOptions::default()).unwrap();
+        let findings = lint(&text, &LintOptions { dialect, stock_top: job.stock_top });
         prop_assert!(findings.is_empty(), "{:?}", findings);
         let deepest = gouge(&text, &kept, 0.5 * job.tool_diameter);
         prop_assert!(deepest <= LARGEST_GOUGE, "{} mm", deepest);

@@ -61,32 +61,12 @@ pub struct JobFile {
     /// `merge` or `keep`: what happens where parts come nearer to each other than the tool.
     #[serde(deserialize_with = "typed")]
     pub topology: Option<Topology>,
-    /// `grbl` or `linuxcnc`.
-    #[serde(deserialize_with = "typed")]
-    pub dialect: Option<DialectName>,
+    /// The name or file of a dialect.
+    pub dialect: Option<String>,
     /// Lines instead of arcs.
     pub no_arcs: Option<bool>,
     /// Inches instead of millimetres.
     pub inches: Option<bool>,
-}
-
-/// Whose dialect of G-code a job is written in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DialectName {
-    /// GRBL 1.1 and those that follow it.
-    #[default]
-    Grbl,
-    /// LinuxCNC 2.8 and later.
-    LinuxCnc,
-}
-
-impl fmt::Display for DialectName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            DialectName::Grbl => "grbl",
-            DialectName::LinuxCnc => "linuxcnc",
-        })
-    }
 }
 
 /// A path radius as it was typed.
@@ -242,14 +222,6 @@ impl FromStr for Topology {
 
     fn from_str(text: &str) -> Result<Topology, UnknownChoice> {
         choose(text, &[("merge", Topology::Merge), ("keep", Topology::Keep)])
-    }
-}
-
-impl FromStr for DialectName {
-    type Err = UnknownChoice;
-
-    fn from_str(text: &str) -> Result<DialectName, UnknownChoice> {
-        choose(text, &[("grbl", DialectName::Grbl), ("linuxcnc", DialectName::LinuxCnc)])
     }
 }
 

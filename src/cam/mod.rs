@@ -52,12 +52,12 @@ pub use job::{
     DEFAULT_SPINDLE_SPEED, DEFAULT_STOCK_TOP, DEFAULT_TOOL_DIAMETER, Direction, Entry, InvalidJob, Job, JobProblem,
     Origin, PathRadius,
 };
-pub use job_file::{DialectName, JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
+pub use job_file::{JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
 pub use lay::{Hole, Notice};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
 pub use operation::{CutLine, Geometry, Keep, OperationError, Planned, TabPlace, plan_operation};
-pub use operation_check::{OperationCheck, check_operation, split_operations};
+pub use operation_check::{OPERATION_COMMENT, OperationCheck, check_operation, split_operations};
 pub use path_radius::{PathPlace, TightestTurns, tightest_turns};
 pub use plan::{PlanError, plan};
 pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};

@@ -13,6 +13,9 @@ use super::removal::{Uncut, uncut};
 use super::setup::{Operation, OperationKind};
 use super::time::{Machine, estimate};
 
+/// What a comment that names an operation begins with.
+pub const OPERATION_COMMENT: &str = "operation ";
+
 /// How far a tool may pass below the top of a tab, in millimetres: rounding of the text.
 const TAB_ROUNDING: f64 = 0.002;
 
@@ -60,8 +63,9 @@ impl OperationCheck {
 }
 
 /// The motions of `program` for each of its operations, in order: those behind each comment that names one.
-pub fn split_operations(program: &Program, comment: &str) -> Vec<Program> {
-    let starts: Vec<usize> = program.comments.iter().filter(|c| c.text.starts_with(comment)).map(|c| c.line).collect();
+pub fn split_operations(program: &Program) -> Vec<Program> {
+    let named = program.comments.iter().filter(|c| c.text.starts_with(OPERATION_COMMENT));
+    let starts: Vec<usize> = named.map(|c| c.line).collect();
     let of = |k: usize| {
         let end = starts.get(k + 1).copied().unwrap_or(usize::MAX);
         let motions = program.motions.iter().filter(|m| m.line > starts[k] && m.line < end);

@@ -7,7 +7,8 @@ use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 
 use super::output;
-use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, Parts, ReadOptions, Selection, Strokes, Warning};
+use crate::gcode::Dialect;
+use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, Parts, ReadOptions, Selection, Shapes, Strokes, Warning};
 use crate::plane::{Region, Stretch};
 use crate::units::{DrawingScale, Length};
 
@@ -55,6 +56,35 @@ pub(super) fn millimetres(length: Length, option: &str) -> Result<f64> {
     length
         .to_millimetres(&no_drawing)
         .map_err(|_| anyhow::anyhow!("{option} needs a physical length, for example 3mm; {length} is none"))
+}
+
+/// The dialect that was asked for, by its name or by a file (`.toml`).
+///
+/// # Errors
+/// Lists the names, or names the file and the key that is wrong.
+pub(super) fn dialect(asked: &str) -> Result<Dialect> {
+    let path = Path::new(asked);
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("toml")) {
+        return Ok(Dialect::named(asked)?.clone());
+    }
+    // A name in a program is one word of ASCII.
+    let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let name: String = stem.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect();
+    Dialect::parse(&read_text(path)?, &name).with_context(|| format!("{}: this is no dialect", path.display()))
+}
+
+/// The dialect that a job file asks for: files are looked for beside it.
+///
+/// # Errors
+/// As [`dialect`].
+pub(super) fn dialect_beside(asked: &str, job: &Path) -> Result<Dialect> {
+    let beside = job.parent().map(|folder| folder.join(asked));
+    match beside {
+        Some(path) if asked.to_ascii_lowercase().ends_with(".toml") && path.is_file() => {
+            dialect(&path.to_string_lossy())
+        }
+        _ => dialect(asked),
+    }
 }
 
 /// How a drawing is read.
@@ -162,6 +192,17 @@ impl ReadArgs {
         let parts = read.with_context(|| path.display().to_string())?;
         Self::say_warnings(path, &parts.chosen().warnings);
         Ok(parts)
+    }
+
+    /// Reads a drawing shape by shape.
+    ///
+    /// # Errors
+    /// As [`ReadArgs::read`].
+    pub(super) fn read_shapes(&self, path: &Path) -> Result<Shapes> {
+        let shapes =
+            svg::read_shapes(&read_bytes(path)?, &self.options()?).with_context(|| path.display().to_string())?;
+        Self::say_warnings(path, &shapes.warnings);
+        Ok(shapes)
     }
 
     /// The area of an element of the drawing that the bytes of `path` hold, painted or not.

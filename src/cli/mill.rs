@@ -1,7 +1,10 @@
 //! `clopen mill`: outlines to a program that was read back and checked before anyone is told that it is there.
 
 mod args;
+mod init;
 mod select;
+mod setup;
+mod setup_report;
 
 use std::path::{Path, PathBuf};
 
@@ -11,11 +14,11 @@ use super::check::FormatArg;
 use super::report::{MillReport, Verdict};
 use super::{ExitStatus, input, output};
 use crate::cam::{
-    self, Certificate, CertifyOptions, DialectName, Job, JobFile, Machine, OffsetError, PlanError, Program, Remainder,
+    self, Certificate, CertifyOptions, Job, JobFile, Machine, OffsetError, PlanError, Program, Remainder, SetupFile,
     Side, Toolpath,
 };
 use crate::check::{LostFeature, lost_features};
-use crate::gcode::{self, Arcs, Controller, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
+use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
 use crate::io::svg::Drawing;
 use crate::plane::Region;
 use crate::preview::{self, DEFAULT_SIZE, Scene};
@@ -29,7 +32,6 @@ struct Settings {
     job: Job,
     topology: Topology,
     dialect: Dialect,
-    controller: Controller,
     options: WriteOptions,
 }
 
@@ -56,6 +58,15 @@ struct Checked {
 /// # Errors
 /// Where the drawing or the job makes no sense, or a file cannot be written.
 pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
+    if args.init {
+        return init::run(args);
+    }
+    if let Some(job) = &args.job {
+        let text = input::read_text(job)?;
+        if SetupFile::is_meant(&text) {
+            return setup::run(args, job, &text);
+        }
+    }
     let name = args.input.display();
     let target = target(args);
     let picture = (!args.no_preview && target != Path::new("-")).then(|| target.with_extension("png"));
@@ -92,7 +103,7 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let report = MillReport {
         input: &args.input,
         job,
-        dialect: settings.dialect.name,
+        dialect: &settings.dialect.name,
         options: settings.options,
         part: &plan.part,
         certificate: &checked.certificate,
@@ -124,15 +135,11 @@ fn read_settings(args: &MillArgs, drawing: &Drawing) -> Result<Settings> {
         let file: JobFile = input::read_text(path)?.parse().with_context(|| path.display().to_string())?;
         typed = typed.over(file);
     }
-    let (dialect, controller) = match typed.dialect.unwrap_or_default() {
-        DialectName::Grbl => (gcode::GRBL, Controller::Grbl),
-        DialectName::LinuxCnc => (gcode::LINUXCNC, Controller::LinuxCnc),
-    };
+    let dialect = input::dialect(typed.dialect.as_deref().unwrap_or("grbl"))?;
     Ok(Settings {
         job: typed.resolve(&drawing.scale())?,
         topology: typed.topology.unwrap_or(Topology::Merge),
         dialect,
-        controller,
         options: WriteOptions {
             units: if typed.inches == Some(true) { Units::Inches } else { Units::Millimetres },
             arcs: if typed.no_arcs == Some(true) { Arcs::Lines } else { Arcs::Arcs },
@@ -196,10 +203,10 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
 
 /// Writes the program, and from here on believes only what it says.
 fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
-    let Settings { job, dialect, controller, options, .. } = settings;
+    let Settings { job, dialect, options, .. } = settings;
     let header = header(args, settings, plan);
     let text = gcode::write(&plan.toolpath, &header, dialect, *options)?;
-    let findings = gcode::lint(&text, &LintOptions { controller: *controller, stock_top: job.stock_top });
+    let findings = gcode::lint(&text, &LintOptions { dialect, stock_top: job.stock_top });
     let program = gcode::read(&text).context("the program cannot be read back; please report this")?;
     let machine = Machine { acceleration: [job.acceleration; 3], ..Machine::default() };
     let remainder = match job.side {

@@ -1,28 +1,17 @@
 //! From the words of G2 and G3 to a circle, and what is wrong with them.
 
+use super::dialect::ArcMismatch;
 use super::interpreter::PlaneAxes;
 use super::rules::Rule;
 use crate::cam::Point3;
 use crate::plane::{Arc, Point, Turn};
 
-/// GRBL 1.1 refuses an arc whose two radii differ by more than this, in millimetres.
-const GRBL_MISMATCH: f64 = 0.5;
-/// GRBL refuses above this (millimetres) where also above [`RELATIVE_MISMATCH`].
-const GRBL_FINE_MISMATCH: f64 = 0.005;
-/// Both controllers allow this fraction of the radius.
-const RELATIVE_MISMATCH: f64 = 0.001;
-/// LinuxCNC allows less than this in millimetre programs whatever the radius: 0.02 √2, measured.
-const LINUXCNC_FINE_MISMATCH: f64 = 0.028_284_27;
-/// LinuxCNC's limit in inch programs, in millimetres: 0.002 √2 inch, measured.
-const LINUXCNC_FINE_MISMATCH_INCH: f64 = 0.002_828_427 * crate::units::MM_PER_INCH;
-/// LinuxCNC refuses above so many times its fine limit, whatever the radius; measured.
-const LINUXCNC_COARSE_FACTOR: f64 = 100.0;
+/// Controllers refuse above so many times their fine limit, whatever the radius; measured on GRBL and LinuxCNC.
+const COARSE_FACTOR: f64 = 100.0;
 /// What a centre that is solved again after rounding reaches, in millimetres.
 const GOOD_MISMATCH: f64 = 0.002;
 /// Rounding of a text in inches with four decimals adds this much, in millimetres.
 const GOOD_MISMATCH_INCH: f64 = 0.004;
-/// LinuxCNC takes an R this much below half the chord, in millimetres, as a half circle; measured.
-const LINUXCNC_SHORT_RADIUS: f64 = 0.001_27;
 /// GRBL reads an arc of an angle up to this, in radians, as a full circle.
 const FULL_CIRCLE_ANGLE: f64 = 5e-7;
 
@@ -37,6 +26,10 @@ pub(super) struct ArcForm {
     pub(super) radius: Option<f64>,
     pub(super) has_end: bool,
     pub(super) is_inch: bool,
+    /// Which arcs the controller refuses; `None` for one that takes all.
+    pub(super) mismatch: Option<ArcMismatch>,
+    /// How much shorter than half the chord R may be; `None` for a controller that takes all.
+    pub(super) radius_slack: Option<f64>,
 }
 
 /// An arc in space.
@@ -94,12 +87,11 @@ fn check_mismatch(form: &ArcForm, start: Point, end: Point, center: Point, find:
     let (r0, r1) = ((start - center).norm(), (end - center).norm());
     let mismatch = (r0 - r1).abs();
     let text = || format!("radius {r0:.4} mm at the start, {r1:.4} mm at the end");
-    if mismatch > GRBL_MISMATCH || (mismatch > GRBL_FINE_MISMATCH && mismatch > RELATIVE_MISMATCH * r0) {
-        find(Rule::ArcRadiusMismatch, text());
-    }
-    let fine = if form.is_inch { LINUXCNC_FINE_MISMATCH_INCH } else { LINUXCNC_FINE_MISMATCH };
-    if mismatch > fine * LINUXCNC_COARSE_FACTOR || (mismatch > fine && mismatch > RELATIVE_MISMATCH * r0.max(r1)) {
-        find(Rule::ArcRadiusMismatchLinuxcnc, text());
+    if let Some(limit) = form.mismatch {
+        let fine = if form.is_inch { limit.inch } else { limit.mm };
+        if mismatch > fine * COARSE_FACTOR || (mismatch > fine && mismatch > limit.relative * r0.max(r1)) {
+            find(Rule::ArcRadiusMismatch, text());
+        }
     }
     let good = if form.is_inch { GOOD_MISMATCH_INCH } else { GOOD_MISMATCH };
     if mismatch > good {
@@ -124,11 +116,8 @@ fn center_of_radius(
     }
     let half = 0.5 * length;
     let short = half - radius.abs();
-    if short > 0.0 {
+    if form.radius_slack.is_some_and(|slack| short > slack) {
         find(Rule::ArcRadiusTooSmall, format!("R {:.4} mm, half the chord {half:.4} mm", radius.abs()));
-    }
-    if short > LINUXCNC_SHORT_RADIUS {
-        find(Rule::ArcRadiusTooSmallLinuxcnc, format!("R {:.4} mm, half the chord {half:.4} mm", radius.abs()));
     }
     let height = (radius * radius - half * half).max(0.0).sqrt();
     // The shorter way to the left has its centre on the left.

@@ -1,30 +1,6 @@
-//! Which codes controllers know, and which exclude each other. Codes are counted in tenths: G38.2 is 382.
+//! Which codes the reader knows, and which exclude each other. Codes are counted in tenths: G38.2 is 382.
 
-/// Who knows a code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Support {
-    Both,
-    LinuxcncOnly,
-    Nowhere,
-}
-
-/// G codes of GRBL 1.1 in tenths.
-const GRBL_G: &[u32] = &[
-    0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 281, 300, 301, 382, 383, 384, 385, 400, 431, 490, 530, 540,
-    550, 560, 570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940,
-];
-
-/// M codes of GRBL 1.1 as it is built by default.
-const GRBL_M: &[u32] = &[0, 10, 20, 30, 40, 50, 80, 90, 300];
-
-/// Further G codes of LinuxCNC.
-const LINUXCNC_G: &[u32] = &[
-    50, 51, 52, 53, 70, 80, 330, 331, 410, 411, 420, 421, 430, 432, 520, 591, 592, 593, 611, 640, 730, 740, 760, 810,
-    820, 830, 840, 850, 860, 870, 880, 890, 901, 922, 923, 950, 960, 970, 980, 990,
-];
-
-/// Further M codes of LinuxCNC, first and last of each run, in whole numbers; from 100 on they are the user's.
-const LINUXCNC_M: &[(u32, u32)] = &[(6, 7), (19, 19), (48, 53), (60, 68), (70, 73), (98, 99), (100, 199)];
+use super::Dialect;
 
 /// The value of a code in tenths; `None` for more decimals, negative or absurd numbers.
 pub(super) fn tenths(value: f64) -> Option<u32> {
@@ -34,21 +10,9 @@ pub(super) fn tenths(value: f64) -> Option<u32> {
     is_code.then_some(rounded as u32)
 }
 
-/// Who knows a G or M code.
-pub(super) fn support(is_g: bool, tenths: u32) -> Support {
-    let (grbl, linuxcnc) = match is_g {
-        true => (GRBL_G.contains(&tenths), LINUXCNC_G.contains(&tenths)),
-        false => {
-            let whole = tenths / 10;
-            let in_a_run = LINUXCNC_M.iter().any(|&(first, last)| (first..=last).contains(&whole));
-            (GRBL_M.contains(&tenths), tenths.is_multiple_of(10) && in_a_run)
-        }
-    };
-    match () {
-        () if grbl => Support::Both,
-        () if linuxcnc => Support::LinuxcncOnly,
-        () => Support::Nowhere,
-    }
+/// Whether any built-in dialect has a code, so that the reader knows what it does, or that it does not follow it.
+pub(super) fn is_known(is_g: bool, tenths: u32) -> bool {
+    Dialect::built_in().iter().any(|d| d.codes.contains(is_g, tenths))
 }
 
 /// The group of codes that exclude each other on one line; `None` where the code excludes nothing.
@@ -72,7 +36,11 @@ pub(super) fn group(is_g: bool, tenths: u32) -> Option<u32> {
     }
 }
 
-/// Splines, threads, cutter compensation and cycles, which are read but not followed.
+/// Splines, pockets, polar coordinates, probing, threads, cutter compensation, scaling, macros, rotation and cycles, which are
+/// read but not followed.
 pub(super) fn is_not_followed(tenths: u32) -> bool {
-    matches!(tenths, 50..=80 | 330 | 331 | 382..=385 | 410..=421 | 730..=760 | 810..=890)
+    matches!(
+        tenths,
+        50..=80 | 120 | 130 | 160 | 310 | 330 | 331 | 382..=385 | 410..=421 | 510 | 650..=680 | 730..=760 | 810..=890
+    )
 }

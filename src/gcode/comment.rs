@@ -10,7 +10,8 @@ const ACTIVE_WORDS: [&str; 8] = ["MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOG
 /// Parentheses, line breaks and everything beyond ASCII are replaced; so are the characters that GRBL takes from the wire
 /// wherever they stand (`!`, `~`, `?`) and those that mark lines for some controllers (`%`, `$`, `;`).
 pub(super) fn comment_lines(text: &str, dialect: &Dialect) -> Vec<String> {
-    let room = dialect.longest_line.saturating_sub(dialect.comment_open.len() + dialect.comment_close.len()).max(1);
+    let (open, close) = dialect.comments.marks();
+    let room = dialect.longest_line.saturating_sub(open.len() + close.len()).max(1);
     let clean: String = text.chars().map(harmless).collect();
     let mut lines = Vec::new();
     let mut line = String::new();
@@ -31,7 +32,7 @@ pub(super) fn comment_lines(text: &str, dialect: &Dialect) -> Vec<String> {
     if !line.is_empty() {
         lines.push(line);
     }
-    lines.iter().map(|l| format!("{}{}{}", dialect.comment_open, passive(l), dialect.comment_close)).collect()
+    lines.iter().map(|l| format!("{open}{}{close}", passive(l))).collect()
 }
 
 fn harmless(c: char) -> char {

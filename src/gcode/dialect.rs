@@ -1,82 +1,303 @@
-//! Dialects as data: a controller is a constant, not a branch.
+//! Dialects as data: what a controller understands stands in a file, not in a branch.
+//!
+//! Built-in dialects are the files of `dialects/`, whose comments name the sources. A machine of one's own is a file with
+//! `base = "grbl"` and only what differs.
 
-/// What a controller understands.
-#[derive(Clone, Copy, Debug, PartialEq)]
+mod code_set;
+mod file;
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+use super::block::Block;
+use super::rules::Rule;
+use crate::units::nearest_name;
+pub use code_set::{CodeSet, InvalidCode};
+pub use file::DialectError;
+
+/// What the machine does its work with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MachineKind {
+    /// A cutter that turns.
+    Router,
+    /// A beam, on only while it works; the spindle speed of a step is its power.
+    Laser,
+    /// A pen, down only while it works; depths mean nothing.
+    Pen,
+}
+
+/// The units of the numbers in a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum Units {
+    /// G21.
+    #[default]
+    #[serde(rename = "mm")]
+    Millimetres,
+    /// G20.
+    #[serde(rename = "inch")]
+    Inches,
+}
+
+/// How comments are marked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CommentStyle {
+    /// `(like this)`
+    Brackets,
+    /// `;like this`
+    Semicolon,
+}
+
+impl CommentStyle {
+    /// What opens a comment, and what closes it.
+    pub fn marks(self) -> (&'static str, &'static str) {
+        match self {
+            CommentStyle::Brackets => ("(", ")"),
+            CommentStyle::Semicolon => (";", ""),
+        }
+    }
+}
+
+/// What a program has to say before anything moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Statement {
+    /// G20 or G21.
+    Units,
+    /// G17, G18 or G19.
+    Plane,
+    /// G90 or G91.
+    DistanceMode,
+    /// G93 or G94.
+    FeedMode,
+}
+
+/// The unit of a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TimeUnit {
+    /// Seconds.
+    Seconds,
+    /// Thousandths of them.
+    Milliseconds,
+}
+
+impl TimeUnit {
+    /// How many there are in a second.
+    pub fn per_second(self) -> f64 {
+        match self {
+            TimeUnit::Seconds => 1.0,
+            TimeUnit::Milliseconds => 1000.0,
+        }
+    }
+}
+
+/// What S means where it is no speed: in proportion, `word` at `rpm`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SpindleFull {
+    /// Full speed, in turns a minute.
+    pub rpm: f64,
+    /// The S of full speed, which none may exceed.
+    pub word: f64,
+}
+
+/// How far the ends of an arc may differ in their distance from its centre before the controller refuses it.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ArcMismatch {
+    /// Millimetres, in programs in millimetres.
+    pub mm: f64,
+    /// Millimetres, in programs in inches.
+    pub inch: f64,
+    /// A share of the radius that is always allowed, up to a hundred times the length above.
+    pub relative: f64,
+}
+
+/// What a controller understands, and how programs for it are written.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Dialect {
-    /// The name by which it is asked for.
-    pub name: &'static str,
-    /// What opens a comment.
-    pub comment_open: &'static str,
-    /// What closes it.
-    pub comment_close: &'static str,
-    /// Decimals of coordinates in millimetres. On a plate with holes three gouge by up to 4e-4 mm and four by up to 5e-5
-    /// mm, for 5 % more text; a fifth is below what controllers in single precision hold.
+    /// The name by which it is asked for, and which stands in the head of programs.
+    #[serde(default)]
+    pub name: String,
+    /// What it is, for people.
+    pub title: String,
+    /// What the machine does its work with.
+    pub machine: MachineKind,
+    /// The letters of the words that are understood, G, M and N left out. Without Z, no Z is written.
+    pub letters: String,
+    /// The G and M codes that are understood.
+    pub codes: CodeSet,
+    /// The units that programs may be in.
+    pub units: Vec<Units>,
+    /// How comments are marked.
+    pub comments: CommentStyle,
+    /// Decimals of coordinates in millimetres.
     pub decimals_mm: u8,
     /// Decimals of coordinates in inches.
     pub decimals_inch: u8,
-    /// The most characters a line may have, without its end.
+    /// The most characters that are written on a line, without its end.
     pub longest_line: usize,
-    /// What is said before anything moves, behind the units: plane, absolute coordinates, feed a minute, and whatever
-    /// the controller may remember from the program before.
-    pub preamble: &'static [&'static str],
-    /// How far the controller may cut corners to keep its speed, in millimetres (G64 P); `None` where it never does.
-    pub blending: Option<f64>,
-    /// The word that ends a program.
-    pub program_end: &'static str,
-    /// Whether M6 is understood. Programs have one tool and never need it; a lint refuses it where it is not.
-    pub tool_change: bool,
+    /// The controller refuses lines with more characters than this, comments and blanks left out.
+    pub refused_code_length: Option<usize>,
+    /// The controller refuses lines with more characters than this, comments and blanks included.
+    pub refused_line_length: Option<usize>,
     /// Whether lines carry numbers.
     pub line_numbers: bool,
+    /// Whether a line holds a single G, M or T command.
+    pub one_code_a_line: bool,
+    /// Whether G0 to G3 hold for the lines that follow.
+    pub modal_motion: bool,
+    /// What has to be said before anything moves.
+    pub must_state: Vec<Statement>,
+    /// What is said before anything moves, behind the units: plane, absolute coordinates, feed a minute, and whatever the
+    /// controller may remember from the program before.
+    pub preamble: Vec<String>,
+    /// How far the controller may cut corners to keep its speed, in millimetres (G64 P); where it is missing or 0 nothing
+    /// is said about it.
+    pub corner_tolerance: Option<f64>,
+    /// The lines that end a program; where there are none, it ends with its text.
+    pub program_end: Vec<String>,
+    /// Turns the spindle, the beam or the pen on; `{speed}` stands for its speed or power.
+    pub spindle_on: String,
+    /// Turns it off.
+    pub spindle_off: String,
+    /// What S means where it is no speed.
+    pub spindle_full: Option<SpindleFull>,
+    /// Whether the program waits for the spindle.
+    pub spindle_dwell: bool,
+    /// The letter of the time that is written behind G4.
+    pub dwell_word: char,
+    /// Its decimals; it is rounded up to whole numbers where it has none.
+    pub dwell_decimals: u8,
+    /// What the letters behind G4 mean.
+    pub dwell_units: BTreeMap<char, TimeUnit>,
+    /// The lines that change to tool `{number}`; where there are none, every tool needs a program of its own.
+    pub tool_change: Vec<String>,
+    /// The line that takes the length of tool `{number}` into account, after the change; may be empty.
+    pub tool_length_offset: String,
     /// Whether G2 and G3 are understood.
     pub arcs: bool,
-    /// The largest radius of an arc in millimetres; beyond it arcs are written as lines. A controller that computes in
-    /// single precision knows a centre far away to no better than 1e-7 of the radius.
+    /// Whether Z may change along an arc.
+    pub helical_arcs: bool,
+    /// The largest radius of an arc in millimetres; beyond it arcs are written as lines.
     pub largest_arc_radius: f64,
+    /// Which arcs are refused; where it is missing, none are.
+    pub arc_mismatch: Option<ArcMismatch>,
+    /// How much shorter than half the chord an R may be, in millimetres, before it is refused; where it is missing, none is.
+    pub radius_slack: Option<f64>,
+    /// The feed that is written with rapids, in millimetres a minute, where the controller needs one.
+    pub rapid_feed: Option<f64>,
+    /// The lines that lift a pen.
+    #[serde(default)]
+    pub pen_up: Vec<String>,
+    /// The lines that lower a pen.
+    #[serde(default)]
+    pub pen_down: Vec<String>,
+    /// z of a lifted pen in millimetres, where Z lifts it.
+    pub pen_up_z: Option<f64>,
+    /// z of a lowered pen in millimetres.
+    pub pen_down_z: Option<f64>,
+    /// The rules that the controller itself enforces, and how it does.
+    pub refuses: BTreeMap<Rule, String>,
 }
+
+/// The built-in files, base before what is based on it.
+const FILES: [(&str, &str); 10] = [
+    ("grbl", include_str!("dialects/grbl.toml")),
+    ("linuxcnc", include_str!("dialects/linuxcnc.toml")),
+    ("grblhal", include_str!("dialects/grblhal.toml")),
+    ("mach3", include_str!("dialects/mach3.toml")),
+    ("marlin", include_str!("dialects/marlin.toml")),
+    ("smoothieware", include_str!("dialects/smoothieware.toml")),
+    ("grbl-laser", include_str!("dialects/grbl-laser.toml")),
+    ("plotter", include_str!("dialects/plotter.toml")),
+    ("plotter-servo", include_str!("dialects/plotter-servo.toml")),
+    ("portable", include_str!("dialects/portable.toml")),
+];
+
+/// Other names of built-in dialects.
+const ALIASES: [(&str, &str); 2] = [("fluidnc", "grblhal"), ("mach4", "mach3")];
+
+// The files are part of the program, and a test reads them all.
+static BUILT_IN: LazyLock<Vec<Dialect>> = LazyLock::new(|| {
+    FILES.iter().map(|(name, text)| Dialect::parse(text, name).expect("a built-in dialect is valid")).collect()
+});
 
 /// GRBL 1.1 and those that follow it.
-pub const GRBL: Dialect = Dialect {
-    name: "grbl",
-    comment_open: "(",
-    comment_close: ")",
-    decimals_mm: 4,
-    decimals_inch: 5,
-    // GRBL holds 80 characters with the end of the line (error 11).
-    longest_line: 79,
-    preamble: &["G17 G90 G94"],
-    blending: None,
-    program_end: "M30",
-    tool_change: false,
-    line_numbers: false,
-    arcs: true,
-    largest_arc_radius: 1000.0,
-};
+pub static GRBL: LazyLock<Dialect> = LazyLock::new(|| BUILT_IN[0].clone());
 
 /// LinuxCNC 2.8 and later.
-pub const LINUXCNC: Dialect = Dialect {
-    name: "linuxcnc",
-    comment_open: "(",
-    comment_close: ")",
-    decimals_mm: 4,
-    decimals_inch: 5,
-    longest_line: 79,
-    // Cancels compensation, tool length offset and canned cycles; arc centres relative to the start.
-    preamble: &["G17 G90 G94", "G40 G49 G80 G91.1"],
-    // Without a tolerance the default G64 rounds every corner as speed demands.
-    blending: Some(0.001),
-    program_end: "M2",
-    tool_change: true,
-    line_numbers: false,
-    arcs: true,
-    largest_arc_radius: 100_000.0,
-};
+pub static LINUXCNC: LazyLock<Dialect> = LazyLock::new(|| BUILT_IN[1].clone());
+
+/// What the header that clopen writes says before the name of the dialect.
+pub const DIALECT_COMMENT: &str = "dialect ";
+
+/// The header of a program is looked for in so many lines.
+const HEADER_LINES: usize = 40;
+
+/// A name that no dialect has.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("\"{name}\" is no dialect{}: there are {known}; a machine of your own is a file, my-machine.toml", .meant.map_or(String::new(), |m| format!(" (do you mean {m}?)")))]
+pub struct UnknownDialect {
+    /// What was asked for.
+    pub name: String,
+    /// All names there are.
+    pub known: String,
+    /// The nearest of them.
+    pub meant: Option<&'static str>,
+}
 
 impl Dialect {
-    /// All dialects.
-    pub const ALL: [Dialect; 2] = [GRBL, LINUXCNC];
+    /// The built-in dialects.
+    pub fn built_in() -> &'static [Dialect] {
+        &BUILT_IN
+    }
 
-    /// The dialect called `name`, in any case.
-    pub fn by_name(name: &str) -> Option<Dialect> {
-        Dialect::ALL.into_iter().find(|d| d.name.eq_ignore_ascii_case(name))
+    /// What both GRBL and LinuxCNC take.
+    pub fn portable() -> &'static Dialect {
+        &BUILT_IN[FILES.len() - 1]
+    }
+
+    /// The built-in dialect called `name`, in any case.
+    ///
+    /// # Errors
+    /// Lists the names, and the nearest.
+    pub fn named(name: &str) -> Result<&'static Dialect, UnknownDialect> {
+        let alias = ALIASES.iter().find(|(alias, _)| alias.eq_ignore_ascii_case(name.trim()));
+        let wanted = alias.map_or(name.trim(), |(_, of)| of);
+        BUILT_IN.iter().find(|d| d.name.eq_ignore_ascii_case(wanted)).ok_or_else(|| {
+            let names = || FILES.iter().map(|(name, _)| *name).chain(ALIASES.iter().map(|(alias, _)| *alias));
+            UnknownDialect {
+                name: name.to_owned(),
+                known: names().collect::<Vec<_>>().join(", "),
+                meant: nearest_name(name, names()),
+            }
+        })
+    }
+
+    /// The built-in dialect that the header of a program written by clopen names.
+    pub fn of_header(text: &str) -> Option<&'static Dialect> {
+        let blocks = text.lines().take(HEADER_LINES).map(Block::parse);
+        let mut comments = blocks.flat_map(|b| b.comments).skip_while(|c| !c.starts_with("clopen "));
+        let name = comments.find_map(|c| c.strip_prefix(DIALECT_COMMENT).map(str::to_owned))?;
+        BUILT_IN.iter().find(|d| d.name == name.trim())
+    }
+
+    /// Whether words of `letter` are understood; G, M and N always are.
+    pub fn knows_letter(&self, letter: char) -> bool {
+        matches!(letter, 'G' | 'M' | 'N') || self.letters.contains(letter)
+    }
+
+    /// Whether the tool's height is the program's: not where there is no Z, nor where it lifts a pen.
+    pub fn has_depth(&self) -> bool {
+        self.machine != MachineKind::Pen && self.letters.contains('Z')
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,11 +8,11 @@ mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Finding;
 use super::arc_words::{ArcForm, solve_arc};
 use super::block::Block;
 use super::codes;
 use super::rules::Rule;
+use super::{Dialect, Finding, MachineKind, Statement};
 use crate::cam::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit};
 use crate::plane::{Point, Turn};
 use crate::units::Brief;
@@ -22,6 +22,8 @@ use crate::units::Brief;
 pub(super) struct Interpretation {
     pub(super) program: Program,
     pub(super) findings: Vec<Finding>,
+    /// How many motions there were before each tool change.
+    pub(super) tool_changes: Vec<usize>,
 }
 
 /// Where a homing motion leaves Z if the program has not moved yet, in millimetres: only pictures see it.
@@ -53,7 +55,8 @@ const ZX: PlaneAxes = [2, 0, 1];
 const YZ: PlaneAxes = [1, 2, 0];
 
 #[derive(Default)]
-struct Interpreter {
+struct Interpreter<'a> {
+    dialect: Option<&'a Dialect>,
     out: Interpretation,
     line: usize,
     motion: Option<MotionMode>,
@@ -64,6 +67,10 @@ struct Interpreter {
     feed_mode: Option<FeedMode>,
     /// In the unit of the feed mode, with millimetres.
     feed: Option<f64>,
+    /// Whether the feed in force was said with a rapid.
+    feed_is_of_rapid: bool,
+    /// Whether the feed in force was said before the tool was changed.
+    feed_is_of_tool_before: bool,
     spindle_on: bool,
     spindle_speed: f64,
     position: Point3,
@@ -74,9 +81,16 @@ struct Interpreter {
     found: (usize, BTreeMap<Rule, usize>),
 }
 
-/// Runs `text`, a whole program.
-pub(super) fn interpret(text: &str) -> Interpretation {
-    let mut machine = Interpreter { position: Point3::origin(), highest: f64::NEG_INFINITY, ..Interpreter::default() };
+/// Runs `text`, a whole program, on a controller of `dialect`.
+pub(super) fn interpret(text: &str, dialect: &Dialect) -> Interpretation {
+    let mut machine = Interpreter {
+        dialect: Some(dialect),
+        position: Point3::origin(),
+        highest: f64::NEG_INFINITY,
+        // A machine without Z has nothing to lift.
+        z_is_known: !dialect.knows_letter('Z'),
+        ..Interpreter::default()
+    };
     for (index, line) in text.lines().enumerate() {
         machine.line = index + 1;
         if machine.out.program.end_line.is_none() {
@@ -89,7 +103,11 @@ pub(super) fn interpret(text: &str) -> Interpretation {
     machine.out
 }
 
-impl Interpreter {
+impl<'a> Interpreter<'a> {
+    fn dialect(&self) -> &'a Dialect {
+        self.dialect.unwrap_or(Dialect::portable())
+    }
+
     fn find(&mut self, rule: Rule, detail: impl Into<String>) {
         if self.found.0 != self.line {
             self.found = (self.line, BTreeMap::new());
@@ -146,7 +164,9 @@ impl Interpreter {
                 ('G', 940) => self.set_feed_mode(FeedMode::PerMinute),
                 ('G', 280 | 300 | 530) => homing = true,
                 ('G', 281 | 301) => {}
-                ('G', 100 | 430..=432 | 520 | 920..=923 | 550..=593) => {
+                // The length of the tool in the spindle: with it, positions are those of the tip, as they are read.
+                ('G', 430) => takes_offsets = true,
+                ('G', 100 | 431 | 432 | 520 | 920..=923 | 550..=593) => {
                     takes_axes |= matches!(tenths, 100 | 431 | 520 | 920);
                     takes_offsets = true;
                     self.find_once(Rule::ShiftedOrigin, &format!("G{}", Brief(word.value)));
@@ -169,21 +189,27 @@ impl Interpreter {
             let unit = if self.feed_mode == Some(FeedMode::InverseTime) { 1.0 } else { self.millimetres() };
             self.feed = Some(f * unit);
         }
-        if let Some(s) = block.value('S') {
+        let dialect = self.dialect();
+        let is_time = |letter| dwell && dialect.dwell_units.contains_key(&letter);
+        if let Some(s) = block.value('S').filter(|_| !is_time('S')) {
+            if dialect.spindle_full.is_some_and(|full| s > full.word) {
+                self.find(Rule::SpeedOutOfRange, format!("S{}", Brief(s)));
+            }
             self.spindle_speed = s;
             self.out.program.spindle_speed = self.out.program.spindle_speed.max(s);
         }
         if tool_stop {
-            self.spindle_on = false;
+            self.change_tool();
         }
         if let Some(on) = spindle {
             self.spindle_on = on;
-            if on && self.spindle_speed <= 0.0 {
+            if on && self.spindle_speed <= 0.0 && dialect.machine == MachineKind::Router {
                 self.find(Rule::NoSpindleSpeed, "");
             }
         }
         if dwell {
-            match block.value('P') {
+            let mut times = dialect.dwell_units.iter();
+            match times.find_map(|(letter, unit)| Some(block.value(*letter)? / unit.per_second())) {
                 Some(seconds) => self.push(self.position, MotionKind::Dwell { seconds: seconds.max(0.0) }),
                 None => self.find(Rule::DwellWithoutTime, ""),
             }
@@ -211,9 +237,20 @@ impl Interpreter {
 
     fn find_end(&mut self) {
         // LinuxCNC and GRBL stop the spindle at M2 and M30, senders and other controllers may not.
-        if self.spindle_on {
+        if self.spindle_on && self.dialect().machine != MachineKind::Pen {
             self.find(Rule::SpindleLeftOn, "");
         }
+    }
+
+    /// M6. Whoever changes a tool may have moved the machine, and the new tool is of another length.
+    fn change_tool(&mut self) {
+        if self.spindle_on {
+            self.find(Rule::SpindleOnAtToolChange, "");
+        }
+        self.spindle_on = false;
+        self.z_is_known = !self.dialect().knows_letter('Z');
+        self.feed_is_of_tool_before = self.feed.is_some();
+        self.out.tool_changes.push(self.out.program.motions.len());
     }
 
     fn set_unit(&mut self, unit: ProgramUnit) {
@@ -259,6 +296,7 @@ impl Interpreter {
             return;
         }
         self.find_missing(mode);
+        self.follow_feed(mode, block);
         let scale = self.millimetres();
         let mut to = self.position;
         for (axis, value) in axes.into_iter().enumerate() {
@@ -301,7 +339,13 @@ impl Interpreter {
             radius: block.value('R').map(|v| v * scale),
             has_end: axes[plane[0]].is_some() || axes[plane[1]].is_some(),
             is_inch: self.unit == Some(ProgramUnit::Inch),
+            mismatch: self.dialect().arc_mismatch,
+            radius_slack: self.dialect().radius_slack,
         };
+        let is_helix = axes[plane[2]].is_some() && to[plane[2]] != self.position[plane[2]];
+        if !self.dialect().arcs || (is_helix && !self.dialect().helical_arcs) {
+            self.find(Rule::NoArcs, "");
+        }
         let line = self.line;
         let solved = solve_arc(&form, |rule, detail| self.out.findings.push(Finding::new(line, rule, detail)));
         let Some(arc) = solved else { return };
@@ -322,21 +366,48 @@ impl Interpreter {
 
     /// What the motion about to be made had to be guessed.
     fn find_missing(&mut self, mode: Option<MotionMode>) {
-        if self.unit.is_none() {
+        let must_state = |statement| self.dialect().must_state.contains(&statement);
+        let [units, plane, distance, feed_mode] =
+            [Statement::Units, Statement::Plane, Statement::DistanceMode, Statement::FeedMode].map(must_state);
+        if units && self.unit.is_none() {
             self.find_once(Rule::MissingUnits, "");
         }
-        if self.plane.is_none() {
+        if plane && self.plane.is_none() {
             self.find_once(Rule::MissingPlane, "");
         }
-        if self.is_incremental.is_none() {
+        if distance && self.is_incremental.is_none() {
             self.find_once(Rule::MissingDistanceMode, "");
         }
         match mode {
             None => self.find_once(Rule::MissingMotionMode, ""),
-            Some(MotionMode::Feed | MotionMode::Arc(_)) if self.feed_mode.is_none() => {
+            Some(MotionMode::Feed | MotionMode::Arc(_)) if feed_mode && self.feed_mode.is_none() => {
                 self.find_once(Rule::MissingFeedMode, "");
             }
             _ => {}
+        }
+    }
+
+    /// Whose feed a motion is made at. F itself was taken from the block before.
+    fn follow_feed(&mut self, mode: Option<MotionMode>, block: &Block) {
+        let is_rapid = matches!(mode, None | Some(MotionMode::Rapid));
+        if !self.dialect().modal_motion
+            && !block.words.iter().any(|w| w.letter == 'G' && (0.0..=3.0).contains(&w.value))
+        {
+            self.find(Rule::MotionWordMissing, "");
+        }
+        if block.value('F').is_some() {
+            (self.feed_is_of_rapid, self.feed_is_of_tool_before) = (is_rapid, false);
+        } else if is_rapid {
+            if self.dialect().rapid_feed.is_some() && self.feed.is_some() && !self.feed_is_of_rapid {
+                self.find_once(Rule::RapidWithoutFeed, "");
+            }
+        } else if self.feed_mode != Some(FeedMode::InverseTime) {
+            if std::mem::take(&mut self.feed_is_of_rapid) {
+                self.find(Rule::FeedOfRapid, "");
+            }
+            if std::mem::take(&mut self.feed_is_of_tool_before) {
+                self.find(Rule::FeedAfterToolChange, "");
+            }
         }
     }
 

@@ -5,6 +5,7 @@ mod block;
 mod codes;
 mod comment;
 mod dialect;
+pub mod grbl_settings;
 mod grid;
 mod interpreter;
 mod lint;
@@ -13,8 +14,13 @@ mod round_arc;
 mod rules;
 mod writer;
 
-pub use dialect::{Dialect, GRBL, LINUXCNC};
-pub use lint::{Controller, DIALECT_COMMENT, Finding, LOW_TRAVEL, LintOptions, lint};
-pub use reader::{ReadError, read};
-pub use rules::{RULES, Rule, RuleInfo, Severity};
-pub use writer::{Arcs, LINES_FOR_ARC_TOLERANCE, Units, WriteError, WriteOptions, write};
+pub use dialect::{
+    ArcMismatch, CodeSet, CommentStyle, DIALECT_COMMENT, Dialect, DialectError, GRBL, InvalidCode, LINUXCNC,
+    MachineKind, SpindleFull, Statement, TimeUnit, Units, UnknownDialect,
+};
+pub use lint::{Finding, LOW_TRAVEL, LintOptions, lint};
+pub use reader::{ReadError, read, read_as};
+pub use rules::{RULES, Rule, RuleInfo, RuleScope, Severity};
+pub use writer::{
+    Arcs, LINES_FOR_ARC_TOLERANCE, ProgramFile, WriteError, WriteOptions, write, write_files, write_steps,
+};

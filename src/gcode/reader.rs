@@ -4,8 +4,8 @@
 //! planes, helices, full circles, comments in both styles. It refuses what it cannot follow: parameters and
 //! expressions, cycles, cutter compensation, splines.
 
-use super::Finding;
 use super::interpreter::interpret;
+use super::{Dialect, Finding};
 use crate::cam::Program;
 
 /// Why a program cannot be read: its first line whose meaning is lost.
@@ -16,12 +16,20 @@ pub struct ReadError(pub Finding);
 /// The motions of `text`, a whole program, in millimetres.
 ///
 /// What the program leaves to the machine is assumed: millimetres, absolute, XY plane, start at the origin. Use
-/// [`super::lint`] to know what was assumed.
+/// [`super::lint`] to know what was assumed. It is read as the dialect that its header names means it.
 ///
 /// # Errors
 /// Where a line cannot be understood, so that the motions would not be those of a machine.
 pub fn read(text: &str) -> Result<Program, ReadError> {
-    let read = interpret(text);
+    read_as(text, Dialect::of_header(text).unwrap_or(Dialect::portable()))
+}
+
+/// The motions of `text`, a whole program, as a controller of `dialect` makes them: the times of G4 differ.
+///
+/// # Errors
+/// Where a line cannot be understood, so that the motions would not be those of a machine.
+pub fn read_as(text: &str, dialect: &Dialect) -> Result<Program, ReadError> {
+    let read = interpret(text, dialect);
     match read.findings.into_iter().find(|f| f.rule.info().meaning_lost) {
         Some(finding) => Err(ReadError(finding)),
         None => Ok(read.program),
@@ -114,6 +122,25 @@ mod tests {
     #[test]
     fn numbers_keep_more_digits_than_single_precision() {
         assert_eq!(ends("G21 G90\nG0 Z1234.5678901")[0].z, 1_234.567_890_1);
+    }
+
+    #[test]
+    fn times_are_those_of_the_dialect() {
+        let wait = |line: &str, dialect: &str| {
+            let program = read_as(&format!("G21 G90\nM3 S100\n{line}"), Dialect::named(dialect).unwrap()).unwrap();
+            match program.motions.as_slice() {
+                [one] => one.kind,
+                _ => panic!("{line}: {program:?}"),
+            }
+        };
+        let seconds = |seconds| MotionKind::Dwell { seconds };
+        assert_eq!(wait("G4 P3", "grbl"), seconds(3.0));
+        assert_eq!(wait("G4 P3000", "marlin"), seconds(3.0));
+        assert_eq!(wait("G4 S3", "marlin"), seconds(3.0));
+        assert_eq!(wait("G4 S3", "smoothieware"), seconds(3.0));
+        let header = "(clopen 0.1.0)\n(dialect marlin)\nG21 G90\nG4 P500\n";
+        assert_eq!(read(header).unwrap().motions[0].kind, seconds(0.5));
+        assert_eq!(read(&header.replace("marlin", "grbl")).unwrap().motions[0].kind, seconds(500.0));
     }
 
     #[test]

@@ -1,20 +1,23 @@
 //! Toolpaths as text.
 //!
-//! Guaranteed: units, plane, absolute coordinates and feed mode are stated before anything moves; z rises first, alone; the
-//! spindle runs and has been waited for before anything is cut; every change of feed is written with the first motion
-//! that has it; arcs are incremental I and J, solved after rounding; no arc begins and ends at one place; the
-//! program ends with z up, spindle off and the program's end. Places are rounded by at most half of the last decimal.
+//! Guaranteed: units, plane, absolute coordinates and feed mode are stated before anything moves; z rises first, alone,
+//! and again after every change of tool; the spindle runs and has been waited for before anything is cut; every change of
+//! feed is written with the first motion that has it; arcs are incremental I and J, solved after rounding; no arc begins and
+//! ends at one place; the program ends with z up, spindle off and the program's end. Places are rounded by at most half of
+//! the last decimal. A beam is on, and a pen down, only along cuts and ramps.
+
+mod steps;
+mod tool;
 
 use std::fmt::Write as _;
 
-use super::Dialect;
-use super::comment::comment_lines;
 use super::grid::{Decimal, Grid};
 use super::round_arc::{LARGEST_MISMATCH, LARGEST_SWEEP, Rounded, lines_for_arc, round_arc};
-use crate::cam::Point3;
-use crate::cam::{Move, MoveKind, Toolpath};
+use super::{Dialect, Units};
+use crate::cam::{Move, MoveKind, Point3};
 use crate::plane::{Arc, Link, Point, Segment, Turn};
 use crate::units::MM_PER_INCH;
+pub use steps::{ProgramFile, write, write_files, write_steps};
 
 /// How far lines may be from the arc that they stand for, in millimetres, rounding of their ends included.
 pub const LINES_FOR_ARC_TOLERANCE: f64 = 0.001;
@@ -24,16 +27,6 @@ const LEAST_TOLERANCE: f64 = 0.25;
 
 /// Decimals of feeds, spindle speeds and seconds.
 const RATE_DECIMALS: u8 = 3;
-
-/// The units of the numbers in a program.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Units {
-    /// G21.
-    #[default]
-    Millimetres,
-    /// G20.
-    Inches,
-}
 
 /// How arcs are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,7 +48,7 @@ pub struct WriteOptions {
 }
 
 /// Why a toolpath cannot be written.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WriteError {
     /// A coordinate is not a number, or larger than any machine.
     #[error(
@@ -79,30 +72,39 @@ pub enum WriteError {
         /// Its value in the program's units.
         value: f64,
     },
-}
-
-/// The program of `toolpath`, beginning with `header` as comments.
-///
-/// # Errors
-/// Where a coordinate or a rate cannot be written.
-pub fn write(
-    toolpath: &Toolpath,
-    header: &[String],
-    dialect: &Dialect,
-    options: WriteOptions,
-) -> Result<String, WriteError> {
-    let mut writer = Writer::new(toolpath, dialect, options);
-    for line in header {
-        for comment in comment_lines(line, dialect) {
-            writer.line(&comment);
-        }
-    }
-    writer.start(toolpath)?;
-    for motion in toolpath.moves.iter().skip(1) {
-        writer.motion(motion)?;
-    }
-    writer.end(toolpath)?;
-    Ok(writer.text)
+    /// The controller does not understand these units.
+    #[error(
+        "programs for {dialect} cannot be in {unit}: choose the other unit, or name it under units in a dialect file"
+    )]
+    Units {
+        /// The name of the dialect.
+        dialect: String,
+        /// The unit asked for.
+        unit: &'static str,
+    },
+    /// The spindle of the dialect does not turn so fast.
+    #[error(
+        "the spindle speed is {speed}, and {dialect} knows none above {most}: see spindle-full in the dialect file"
+    )]
+    Speed {
+        /// The name of the dialect.
+        dialect: String,
+        /// The speed asked for.
+        speed: f64,
+        /// Its full speed.
+        most: f64,
+    },
+    /// Several tools in one program, for a controller that cannot change them.
+    #[error("programs for {dialect} cannot change tools, and this one has {count}: write one program for each tool")]
+    NoToolChange {
+        /// The name of the dialect.
+        dialect: String,
+        /// How many tools there are.
+        count: usize,
+    },
+    /// No step at all.
+    #[error("there is nothing to write: the job has no step")]
+    Empty,
 }
 
 /// The state of the machine as far as the text has told it.
@@ -123,10 +125,16 @@ struct Writer<'a> {
     exact: Point,
     exact_z: f64,
     feed: Option<String>,
+    /// The spindle speed or power of the step, as it is written.
+    speed: String,
+    /// Whether the motion that is being written does the work, so that a beam is on and a pen down.
+    is_work: bool,
+    /// Whether the beam is on or the pen down; unknown at the start.
+    is_engaged: Option<bool>,
 }
 
 impl<'a> Writer<'a> {
-    fn new(toolpath: &Toolpath, dialect: &'a Dialect, options: WriteOptions) -> Writer<'a> {
+    fn new(dialect: &'a Dialect, options: WriteOptions) -> Writer<'a> {
         let (unit, decimals) = match options.units {
             Units::Millimetres => (1.0, dialect.decimals_mm),
             Units::Inches => (MM_PER_INCH, dialect.decimals_inch),
@@ -136,21 +144,25 @@ impl<'a> Writer<'a> {
             grid: Grid::new(decimals, unit),
             unit,
             arcs: if dialect.arcs { options.arcs } else { Arcs::Lines },
-            part_side: toolpath.part_side,
-            cut_feed: toolpath.settings.feed.mm_per_min(),
-            plunge_feed: toolpath.settings.plunge_feed.mm_per_min(),
+            part_side: Turn::Right,
+            cut_feed: 0.0,
+            plunge_feed: 0.0,
             text: String::new(),
             line_count: 0,
-            at: [None; 3],
+            // Where depth means nothing it is always where it should be.
+            at: [None, None, if dialect.has_depth() { None } else { Some(0) }],
             exact: Point::origin(),
             exact_z: 0.0,
             feed: None,
+            speed: String::new(),
+            is_work: false,
+            is_engaged: None,
         }
     }
 
     fn line(&mut self, words: &str) {
         self.line_count += 1;
-        let is_comment = words.starts_with(self.dialect.comment_open);
+        let is_comment = words.starts_with(self.dialect.comments.marks().0);
         if self.dialect.line_numbers && !is_comment {
             // Infallible: writing to a string.
             let _ = write!(self.text, "N{} ", self.line_count);
@@ -159,33 +171,15 @@ impl<'a> Writer<'a> {
         self.text.push('\n');
     }
 
-    fn start(&mut self, toolpath: &Toolpath) -> Result<(), WriteError> {
-        self.line(if self.unit == 1.0 { "G21" } else { "G20" });
-        for words in self.dialect.preamble {
-            self.line(words);
-        }
-        if let Some(blending) = self.dialect.blending {
-            let p = Decimal::of(blending / self.unit, self.dialect.decimals_inch.max(self.dialect.decimals_mm));
-            self.line(&format!("G64 P{}", p.ok_or(WriteError::Rate { what: "blending", value: blending })?));
-        }
-        self.rapid_z(toolpath.settings.safe_height, 0)?;
-        self.line(&format!("M3 S{}", rate("spindle speed", toolpath.settings.spindle_speed)?));
-        self.line(&format!("G4 P{}", rate("dwell", toolpath.settings.dwell)?));
-        Ok(())
-    }
-
-    fn end(&mut self, toolpath: &Toolpath) -> Result<(), WriteError> {
-        self.rapid_z(toolpath.settings.safe_height, toolpath.contour_count)?;
-        self.line("M5");
-        self.line(self.dialect.program_end);
-        Ok(())
-    }
-
     fn rapid_z(&mut self, z: f64, contour: usize) -> Result<(), WriteError> {
+        if !self.dialect.has_depth() {
+            return Ok(());
+        }
         let no_place = WriteError::Place { contour, x: self.exact.x, y: self.exact.y, z };
         let multiple = self.grid.round(z).ok_or(no_place)?;
         if self.at[2] != Some(multiple) {
-            self.line(&format!("G0 Z{}", self.grid.text(multiple)));
+            self.is_work = false;
+            self.feed_line(format!("G0 Z{}", self.grid.text(multiple)), None)?;
         }
         self.at[2] = Some(multiple);
         self.exact_z = z;
@@ -193,15 +187,22 @@ impl<'a> Writer<'a> {
     }
 
     fn motion(&mut self, motion: &Move) -> Result<(), WriteError> {
+        let flat = Move { z: 0.0, ..*motion };
+        let motion = if self.dialect.has_depth() { motion } else { &flat };
+        self.is_work = matches!(motion.kind, MoveKind::Ramp(_) | MoveKind::Cut(_));
         match motion.kind {
             MoveKind::Rapid => {
+                // Even where nothing moves in the plane: a beam must not burn on while the program goes on.
+                self.engage(false)?;
                 if motion.z != self.exact_z {
                     self.rapid_z(motion.z, motion.contour + 1)?;
                 }
                 self.straight("G0", motion.to, motion.z, motion.contour, None)?;
             }
             MoveKind::Plunge => self.straight("G1", motion.to, motion.z, motion.contour, Some(self.plunge_feed))?,
-            MoveKind::Ramp(link) => self.along(link, motion, self.plunge_feed)?,
+            // On a machine without depth a ramp is a cut like others: left out, a part of the path might never be cut.
+            MoveKind::Ramp(link) if self.dialect.has_depth() => self.along(link, motion, self.plunge_feed)?,
+            MoveKind::Ramp(link) => self.along(link, motion, self.cut_feed)?,
             MoveKind::Cut(link) => self.along(link, motion, self.cut_feed)?,
         }
         self.exact = motion.to;
@@ -228,7 +229,10 @@ impl<'a> Writer<'a> {
     }
 
     fn arc(&mut self, exact: &Segment, arc: &Arc, z: [f64; 2], contour: usize, feed: f64) -> Result<(), WriteError> {
-        let lines = self.arcs == Arcs::Lines || arc.radius > self.dialect.largest_arc_radius;
+        let is_helix = z[0] != z[1];
+        let lines = self.arcs == Arcs::Lines
+            || arc.radius > self.dialect.largest_arc_radius
+            || (is_helix && !self.dialect.helical_arcs);
         let end = self.place(exact.end, z[1], contour)?;
         let [Some(x), Some(y), _] = self.at else {
             // Not known where it starts, which no plan leaves open: a line is always right about its end.
@@ -287,16 +291,23 @@ impl<'a> Writer<'a> {
         if words.len() == word.len() { Ok(()) } else { self.feed_line(words, feed) }
     }
 
-    /// A line of motion, with the feed where it is new.
+    /// A line of motion, with the feed where it is new; beam and pen are made ready for it.
     fn feed_line(&mut self, mut words: String, feed: Option<f64>) -> Result<(), WriteError> {
-        if let Some(feed) = feed {
-            let text = rate("feed", feed / self.unit)?;
-            if self.feed.as_ref() != Some(&text) {
-                let _ = write!(words, " F{text}");
-                self.feed = Some(text);
-            }
+        self.engage(self.is_work)?;
+        if let Some(feed) = feed.or(self.dialect.rapid_feed) {
+            self.add_feed(&mut words, feed)?;
         }
         self.line(&words);
+        Ok(())
+    }
+
+    /// The feed, in millimetres a minute, at the end of `words`, where it is new.
+    fn add_feed(&mut self, words: &mut String, feed: f64) -> Result<(), WriteError> {
+        let text = rate("feed", feed / self.unit)?;
+        if self.feed.as_ref() != Some(&text) {
+            let _ = write!(words, " F{text}");
+            self.feed = Some(text);
+        }
         Ok(())
     }
 
@@ -316,5 +327,7 @@ fn rate(what: &'static str, value: f64) -> Result<String, WriteError> {
     if value > 0.0 && text == "0" { Err(WriteError::Rate { what, value }) } else { Ok(text) }
 }
 
+#[cfg(test)]
+mod step_tests;
 #[cfg(test)]
 mod tests;

@@ -12,7 +12,7 @@ mod speed;
 pub use brief::Brief;
 pub use font_length::{FontLength, ParseFontLengthError};
 pub use length::{DrawingScale, Length, ParseLengthError, ResolveLengthError};
-pub use nearest::nearest;
+pub use nearest::{nearest, nearest_name};
 pub use radius::{InvalidRadius, Radius};
 pub use speed::{ParseSpeedError, Speed};
 

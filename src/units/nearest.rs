@@ -1,5 +1,8 @@
 //! The word that was probably meant.
 
+/// A slip of the keyboard changes at most this share of the letters of a name; a name is not offered beyond it.
+const LARGEST_SLIP: f64 = 0.5;
+
 /// Of `words` the one with the fewest changes of letters from `word`, the first of equals; none where all of them are
 /// other words altogether.
 pub fn nearest<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
@@ -8,6 +11,22 @@ pub fn nearest<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<&
     let (changes, found) = rated.reduce(|a, b| if b.0 < a.0 { b } else { a })?;
     // Words that have no letter in common are as many changes apart as the longer one has letters.
     (changes < letters.len().max(found.chars().count())).then_some(found)
+}
+
+/// The name of `names` that is nearest to what was `typed`, in any case; `None` where none is near. Of equally near ones
+/// the first.
+pub fn nearest_name<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let typed = typed.trim().to_lowercase();
+    let mut best: Option<(usize, &str)> = None;
+    for name in names {
+        let distance = changes(&typed.chars().collect::<Vec<_>>(), &name.to_lowercase());
+        if best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, name));
+        }
+    }
+    let (distance, name) = best?;
+    let longest = typed.chars().count().max(name.chars().count());
+    (distance as f64 <= LARGEST_SLIP * longest as f64).then_some(name)
 }
 
 /// How many letters have to be put in, taken out or exchanged to make one word of the other (Levenshtein).
@@ -44,5 +63,16 @@ mod tests {
     fn changes_are_counted() {
         let count = |a: &str, b| changes(&a.chars().collect::<Vec<_>>(), b);
         assert_eq!((count("kitten", "sitting"), count("", "abc"), count("abc", "")), (3, 3, 3));
+    }
+
+    #[test]
+    fn a_slip_is_understood_and_a_stranger_is_not() {
+        let names = ["grbl", "linuxcnc", "mach3"];
+        assert_eq!(nearest_name("gbrl", names), Some("grbl"));
+        assert_eq!(nearest_name("Linux-CNC", names), Some("linuxcnc"));
+        assert_eq!(nearest_name("mach4", names), Some("mach3"));
+        assert_eq!(nearest_name("heidenhain", names), None);
+        assert_eq!(nearest_name("", names), None);
+        assert_eq!(nearest_name("grbl", []), None);
     }
 }

@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::locate::Locator;
 use crate::cam::job_file::{TypedPathRadius, typed};
-use crate::cam::{Direction, Entry, JobFile, Origin, Side};
+use crate::cam::{Direction, Entry, JobFile, Machine, Origin, Side};
 use crate::rolling::Topology;
 use crate::units::{Length, Speed, nearest};
 
@@ -87,6 +87,16 @@ pub struct MachineFile {
     pub dwell: Option<f64>,
     /// The fastest that the spindle turns.
     pub largest_spindle_speed: Option<f64>,
+}
+
+impl MachineFile {
+    /// Takes what the machine itself says, where this file says nothing.
+    pub fn take(&mut self, limits: &Machine, travel: Option<[f64; 3]>) {
+        self.acceleration.get_or_insert(PerAxis::Each(limits.acceleration));
+        self.rapid.get_or_insert(PerAxis::Each(limits.rapid));
+        self.junction_deviation.get_or_insert(Length::Millimetres(limits.junction_deviation));
+        self.travel = self.travel.or(travel);
+    }
 }
 
 /// One number for all axes, or one each.

@@ -249,8 +249,7 @@ impl Resolver<'_> {
             dialect: self
                 .flags
                 .dialect
-                .as_ref()
-                .map(ToString::to_string)
+                .clone()
                 .or_else(|| machine.dialect.clone())
                 .unwrap_or_else(|| "grbl".to_owned()),
             inches: self.flags.inches.or(machine.inches).unwrap_or(false),

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use crate::cam::{DialectName, Direction, Entry, JobFile, Origin, Side, TypedPathRadius};
+use crate::cam::{Direction, Entry, JobFile, Origin, Side, TypedPathRadius};
 use crate::cli::check::FormatArg;
 use crate::cli::close::TopologyArg;
 use crate::cli::input::ReadArgs;
@@ -19,9 +19,13 @@ pub(in crate::cli) struct MillArgs {
     /// Where the program goes; unless given, the drawing's name with .nc in the current folder
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: Option<PathBuf>,
-    /// A file of job settings (TOML); flags beat the file, the file beats defaults
+    /// A job file (TOML): settings of a single profile, or stock, machine, tools and operations; flags beat the file, the
+    /// file beats defaults
     #[arg(long, value_name = "FILE")]
     pub(super) job: Option<PathBuf>,
+    /// Print a commented job file for the drawing, and do nothing else
+    #[arg(long, conflicts_with_all = ["job", "output"])]
+    pub(super) init: bool,
     /// Exit with 0 although features of the drawing are lost
     #[arg(long)]
     pub(super) accept_losses: bool,
@@ -98,33 +102,16 @@ struct CutArgs {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Program")]
 struct ProgramArgs {
-    /// The controller's dialect [default: grbl]
-    #[arg(long, value_enum)]
-    dialect: Option<DialectArg>,
+    /// The controller's dialect: grbl, grblhal, fluidnc, linuxcnc, mach3, mach4, marlin, smoothieware, grbl-laser, plotter,
+    /// plotter-servo, or a file of your own (my-machine.toml) [default: grbl]
+    #[arg(long, value_name = "NAME|FILE")]
+    dialect: Option<String>,
     /// Lines instead of arcs, for machines without them
     #[arg(long)]
     no_arcs: bool,
     /// Write inches (G20) instead of millimetres
     #[arg(long)]
     inches: bool,
-}
-
-/// `--dialect`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum DialectArg {
-    /// GRBL 1.1 and those that follow it
-    Grbl,
-    /// LinuxCNC 2.8 and later
-    Linuxcnc,
-}
-
-impl From<DialectArg> for DialectName {
-    fn from(arg: DialectArg) -> DialectName {
-        match arg {
-            DialectArg::Grbl => DialectName::Grbl,
-            DialectArg::Linuxcnc => DialectName::LinuxCnc,
-        }
-    }
 }
 
 impl MillArgs {
@@ -148,7 +135,7 @@ impl MillArgs {
             acceleration: cut.acceleration,
             entry: cut.entry,
             topology: cut.topology.map(Into::into),
-            dialect: program.dialect.map(Into::into),
+            dialect: program.dialect.clone(),
             no_arcs: program.no_arcs.then_some(true),
             inches: program.inches.then_some(true),
         }

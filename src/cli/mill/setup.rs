@@ -12,7 +12,7 @@ use crate::cam::{
     check_operation, plan_operation, split_operations,
 };
 use crate::cli::{ExitStatus, input, output};
-use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, OPERATION_COMMENT, Units, WriteOptions};
+use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
 use crate::io::svg::Shapes;
 use crate::plane::{Point, Vector};
 use crate::preview::{self, DEFAULT_SIZE, Scene};
@@ -121,7 +121,11 @@ fn read_machine_settings(file: &mut SetupFile, job: &Path) -> Result<()> {
     let path = job.parent().unwrap_or(Path::new("")).join(name);
     let text = input::read_text(&path)?;
     let settings = gcode::grbl_settings::read(&text).with_context(|| path.display().to_string())?;
-    file.machine.take(&settings.machine(&cam::Machine::default()), settings.travel);
+    let travel = match settings.travel {
+        [Some(x), Some(y), Some(z)] => Some([x, y, z]),
+        _ => None,
+    };
+    file.machine.take(&settings.machine(&cam::Machine::default()), travel);
     Ok(())
 }
 
@@ -194,7 +198,7 @@ fn header(args: &MillArgs, setup: &Setup, dialect: &Dialect) -> Vec<String> {
 
 /// Every operation against the part of the programs that is its own.
 fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]) -> Result<Vec<Done<'a>>> {
-    let runs: Vec<Program> = written.iter().flat_map(|w| split_operations(&w.program, OPERATION_COMMENT)).collect();
+    let runs: Vec<Program> = written.iter().flat_map(|w| split_operations(&w.program)).collect();
     if runs.len() != planned.len() {
         return Err(anyhow!(
             "the programs have {} operations and the job {}; please report this",

@@ -7,7 +7,7 @@ use anyhow::Result;
 use serde_json::json;
 
 use super::setup::{Done, Written, at};
-use crate::cam::{Notice, Setup, Side, OperationKind, estimate};
+use crate::cam::{Notice, OperationKind, Setup, Side, estimate};
 use crate::cli::report::{GOUGE_LIMIT, Verdict};
 use crate::gcode::Severity;
 
@@ -52,10 +52,15 @@ impl SetupReport<'_> {
             let _ = writeln!(
                 text,
                 "{label:<24}{:>5}{:>7}{:>10.1}{:>9.3}{:>8.1}{gouge:>11}{verdict:>9}",
-                check.tool, check.statistics.passes, check.statistics.cut_length_mm, check.statistics.depth_mm, check.seconds
+                check.tool,
+                check.statistics.passes,
+                check.statistics.cut_length_mm,
+                check.statistics.depth_mm,
+                check.seconds
             );
         }
-        let seconds: f64 = self.written.iter().map(|w| estimate(&w.program, &self.setup.rig.limits).total_seconds()).sum();
+        let seconds: f64 =
+            self.written.iter().map(|w| estimate(&w.program, &self.setup.rig.limits).total_seconds()).sum();
         let _ = writeln!(text, "{:<24}{}", "time", minutes(seconds));
         for done in self.done {
             let words = words(done, self.setup);
@@ -144,10 +149,8 @@ fn words(done: &Done, setup: &Setup) -> Words {
         failures.push(format!("{} passes were asked for, and the program has {}", check.passes[0], check.passes[1]));
     }
     for island in &check.islands {
-        failures.push(format!(
-            "{:.3} mm stay standing at ({:.3}, {:.3})",
-            island.thickness_mm, island.x_mm, island.y_mm
-        ));
+        failures
+            .push(format!("{:.3} mm stay standing at ({:.3}, {:.3})", island.thickness_mm, island.x_mm, island.y_mm));
     }
     if planned.contradictions > 0 {
         failures.push(format!("{} places of the path are not proved", planned.contradictions));
@@ -172,11 +175,22 @@ fn words(done: &Done, setup: &Setup) -> Words {
     for notice in &planned.notices {
         match *notice {
             Notice::LeadSkipped(p) => notes.push(format!("no room for a lead at {}", at(p))),
-            Notice::HelixSkipped(p) => notes.push(format!("no room for a helix at {}: the tool ramps along the path", at(p))),
-            Notice::NoHole(p) => notes.push(format!("no drilled hole near {} takes the tool: it ramps along the path", at(p))),
-            Notice::CornerSkipped(p) => notes.push(format!("the tool does not come near the corner at {}: it stays round", at(p))),
-            Notice::TabsDropped(p, count) => failures.push(format!("{count} tabs find no place on the outline at {}: ask for fewer or narrower ones", at(p))),
-            Notice::TabsOnArcs(p, count) => notes.push(format!("{count} tabs stand on tight arcs of the outline at {}", at(p))),
+            Notice::HelixSkipped(p) => {
+                notes.push(format!("no room for a helix at {}: the tool ramps along the path", at(p)))
+            }
+            Notice::NoHole(p) => {
+                notes.push(format!("no drilled hole near {} takes the tool: it ramps along the path", at(p)))
+            }
+            Notice::CornerSkipped(p) => {
+                notes.push(format!("the tool does not come near the corner at {}: it stays round", at(p)))
+            }
+            Notice::TabsDropped(p, count) => failures.push(format!(
+                "{count} tabs find no place on the outline at {}: ask for fewer or narrower ones",
+                at(p)
+            )),
+            Notice::TabsOnArcs(p, count) => {
+                notes.push(format!("{count} tabs stand on tight arcs of the outline at {}", at(p)))
+            }
         }
     }
     let cutting = &done.operation.cutting;

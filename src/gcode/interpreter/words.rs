@@ -8,12 +8,6 @@ use super::super::rules::Rule;
 use super::Interpreter;
 use crate::units::Brief;
 
-/// Most characters of a line for GRBL, without comments and blanks: its buffer of 80 holds an end mark.
-const GRBL_LINE: usize = 79;
-
-/// Most characters of a line for LinuxCNC, comments and blanks included; measured.
-const LINUXCNC_LINE: usize = 252;
-
 /// Findings quote no more characters than this.
 const LONGEST_QUOTE: usize = 40;
 
@@ -25,13 +19,16 @@ fn excerpt(text: &str) -> String {
     }
 }
 
-impl Interpreter {
+impl Interpreter<'_> {
     pub(super) fn check_text(&mut self, line: &str, block: &Block) {
-        if block.code_length > GRBL_LINE {
-            self.find(Rule::LineTooLong, format!("{} characters", block.code_length));
+        let dialect = self.dialect();
+        let code_limit = dialect.refused_code_length.filter(|most| block.code_length > *most);
+        if let Some(most) = code_limit {
+            let length = block.code_length;
+            self.find(Rule::LineTooLong, format!("{length} without comments and blanks, {most} are taken"));
         }
-        if line.len() > LINUXCNC_LINE {
-            self.find(Rule::LineTooLongLinuxcnc, format!("{} characters", line.len()));
+        if let Some(most) = dialect.refused_line_length.filter(|most| line.len() > *most && code_limit.is_none()) {
+            self.find(Rule::LineTooLong, format!("{}, {most} are taken", line.len()));
         }
         if block.has_delimiter {
             self.find_once(Rule::PercentSign, "");
@@ -59,7 +56,9 @@ impl Interpreter {
     }
 
     pub(super) fn check_words(&mut self, block: &Block) {
+        let dialect = self.dialect();
         let mut seen = 0u32;
+        let mut commands = 0;
         let mut groups = BTreeSet::new();
         for word in &block.words {
             let tenths = codes::tenths(word.value);
@@ -67,17 +66,15 @@ impl Interpreter {
                 'G' | 'M' => {
                     let is_g = word.letter == 'G';
                     let text = format!("{}{}", word.letter, Brief(word.value));
-                    match tenths.map(|t| codes::support(is_g, t)) {
-                        None | Some(codes::Support::Nowhere) => self.find(Rule::UnknownCode, &text),
-                        Some(codes::Support::LinuxcncOnly) => {
-                            let rule = if (is_g, tenths) == (false, Some(60)) {
-                                Rule::ToolChange
-                            } else {
-                                Rule::GrblUnsupported
-                            };
-                            self.find(rule, &text);
-                        }
-                        Some(codes::Support::Both) => {}
+                    match tenths {
+                        Some(t) if dialect.codes.contains(is_g, t) => {}
+                        Some(60) if !is_g => self.find(Rule::ToolChange, &text),
+                        Some(t) if codes::is_known(is_g, t) => self.find(Rule::UnsupportedCode, &text),
+                        _ => self.find(Rule::UnknownCode, &text),
+                    }
+                    commands += 1;
+                    if dialect.one_code_a_line && commands > 1 {
+                        self.find(Rule::SeveralCodes, &text);
                     }
                     if let Some(group) = tenths.and_then(|t| codes::group(is_g, t))
                         && !groups.insert(group)
@@ -93,7 +90,7 @@ impl Interpreter {
                     seen |= bit;
                     match letter {
                         'E' => self.find(Rule::Exponent, format!("E{}", Brief(word.value))),
-                        'A' | 'B' | 'C' | 'D' | 'H' | 'Q' | 'U' | 'V' | 'W' => self.find(Rule::GrblUnsupported, letter),
+                        letter if !dialect.knows_letter(letter) => self.find(Rule::UnsupportedCode, letter),
                         'F' | 'S' | 'T' | 'P' if word.value < 0.0 => {
                             self.find(Rule::NegativeValue, format!("{letter}{}", Brief(word.value)));
                         }

@@ -1,0 +1,68 @@
+(clopen golden program)
+(dialect mach3)
+(T1 tool diameter 3 mm, flat end mill)
+(T2 tool diameter 2.5 mm, drill of 118.0 degrees)
+G21
+G17 G90 G94
+G40 G49 G80 G91.1
+(operation pocket)
+T1 M6
+G43 H1
+G0 Z5
+M3 S12000
+G4 P2
+G0 X12 Y10
+G0 Z0.5
+G1 Z0 F250
+G3 X8 Y10 Z-0.5 I-2 J0
+G3 X12 Y10 Z-1 I2 J0
+G1 X14 F800
+G1 Y13
+G3 X13 Y14 I-1 J0
+G1 X11
+G1 X10.5 Z-0.5
+G1 X9.5
+G1 X9 Z-1
+G1 X7
+G3 X6 Y13 I0 J-1
+G1 Y7
+G3 X7 Y6 I1 J0
+G1 X13
+G3 X14 Y7 I0 J1
+G1 Y10
+G0 Z5
+M5
+(operation holes)
+T2 M6
+G43 H2
+G0 Z5
+M3 S6000
+G4 P2
+G0 X3 Y3
+G0 Z0.5
+G1 Z-2 F250
+G0 Z0.5
+G0 Z-1.5
+G1 Z-4
+G0 Z5
+G0 X17 Y16.6667
+G0 Z0.5
+G1 Z-2
+G0 Z0.5
+G0 Z-1.5
+G1 Z-4
+G0 Z5
+M5
+(operation slope)
+T1 M6
+G43 H1
+G0 Z5
+M3 S10000
+G4 P2
+G0 X0 Y20
+G1 Z-0.25 F250
+G1 X20 Z-1.25 F800
+G3 X0 Y20 I-10 J-4
+G0 Z5
+M5
+M30

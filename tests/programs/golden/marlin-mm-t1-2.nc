@@ -1,0 +1,16 @@
+;clopen golden program
+;dialect marlin
+;program 3 of 3
+;T1 tool diameter 3 mm, flat end mill
+G21
+G90
+;operation slope
+G0 Z5 F3000
+M3 S85
+G4 S2
+G0 X0 Y20
+G1 Z-0.25 F250
+G1 X20 Z-1.25 F800
+G3 X0 Y20 I-10 J-4
+G0 Z5 F3000
+M5

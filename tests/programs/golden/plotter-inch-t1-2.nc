@@ -1,0 +1,14 @@
+(clopen golden program)
+(dialect plotter)
+(program 3 of 3)
+(T1 tool diameter 3 mm, flat end mill)
+G20
+G17 G90 G94
+(operation slope)
+G0 Z0.11811
+G0 X0 Y0.7874
+G1 Z0 F9.843
+G1 X0.7874 F31.496
+G3 X0 Y0.7874 I-0.3937 J-0.15748
+G0 Z0.11811
+M30

@@ -1,0 +1,14 @@
+(clopen golden program)
+(dialect plotter)
+(program 3 of 3)
+(T1 tool diameter 3 mm, flat end mill)
+G21
+G17 G90 G94
+(operation slope)
+G0 Z3
+G0 X0 Y20
+G1 Z0 F250
+G1 X20 F800
+G3 X0 Y20 I-10 J-4
+G0 Z3
+M30

@@ -1,0 +1,32 @@
+;clopen golden program
+;dialect smoothieware
+;program 1 of 3
+;T1 tool diameter 3 mm, flat end mill
+G21
+G17 G90
+;operation pocket
+G0 Z5
+M3 S12000
+G4 S2
+G0 X12 Y10
+G0 Z0.5
+G1 Z0 F250
+G3 X8 Y10 Z-0.5 I-2 J0
+G3 X12 Y10 Z-1 I2 J0
+G1 X14 F800
+G1 Y13
+G3 X13 Y14 I-1 J0
+G1 X11
+G1 X10.5 Z-0.5
+G1 X9.5
+G1 X9 Z-1
+G1 X7
+G3 X6 Y13 I0 J-1
+G1 Y7
+G3 X7 Y6 I1 J0
+G1 X13
+G3 X14 Y7 I0 J1
+G1 Y10
+G0 Z5
+M5
+M2

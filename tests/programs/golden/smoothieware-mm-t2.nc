@@ -1,0 +1,26 @@
+;clopen golden program
+;dialect smoothieware
+;program 2 of 3
+;T2 tool diameter 2.5 mm, drill of 118.0 degrees
+G21
+G17 G90
+;operation holes
+G0 Z5
+M3 S6000
+G4 S2
+G0 X3 Y3
+G0 Z0.5
+G1 Z-2 F250
+G0 Z0.5
+G0 Z-1.5
+G1 Z-4
+G0 Z5
+G0 X17 Y16.6667
+G0 Z0.5
+G1 Z-2
+G0 Z0.5
+G0 Z-1.5
+G1 Z-4
+G0 Z5
+M5
+M2
