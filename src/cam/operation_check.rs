@@ -93,14 +93,15 @@ pub fn check_operation(
         _ => None,
     };
     let islands = match (&operation.kind, &planned.keep) {
-        (OperationKind::Pocket { .. } | OperationKind::Drill { .. }, Some(keep)) => {
+        // What a larger tool has cut before is no part of this program.
+        (OperationKind::Pocket { rest_of: None, .. } | OperationKind::Drill { .. }, Some(keep)) => {
             islands(program, &keep.kept, tool.radius(), keep.floor)
         }
         _ => Vec::new(),
     };
     let cutting = &operation.cutting;
     let asked_passes = match operation.kind {
-        OperationKind::Profile { .. } | OperationKind::Pocket { .. } if planned.toolpath.contour_count > 0 => {
+        OperationKind::Profile { .. } | OperationKind::Pocket { .. } => {
             cutting.pass_heights(stock_top).len()
         }
         _ => 0,
