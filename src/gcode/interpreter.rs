@@ -4,6 +4,7 @@
 //! plane, units per minute), and that it had to be assumed is a finding. Reading never stops: a line that cannot be
 //! understood is a finding too, and whether the program's meaning is lost is said by its rule.
 
+mod feed;
 mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -385,46 +386,5 @@ impl<'a> Interpreter<'a> {
             }
             _ => {}
         }
-    }
-
-    /// Whose feed a motion is made at. F itself was taken from the block before.
-    fn follow_feed(&mut self, mode: Option<MotionMode>, block: &Block) {
-        let is_rapid = matches!(mode, None | Some(MotionMode::Rapid));
-        if !self.dialect().modal_motion
-            && !block.words.iter().any(|w| w.letter == 'G' && (0.0..=3.0).contains(&w.value))
-        {
-            self.find(Rule::MotionWordMissing, "");
-        }
-        if block.value('F').is_some() {
-            (self.feed_is_of_rapid, self.feed_is_of_tool_before) = (is_rapid, false);
-        } else if is_rapid {
-            if self.dialect().rapid_feed.is_some() && self.feed.is_some() && !self.feed_is_of_rapid {
-                self.find_once(Rule::RapidWithoutFeed, "");
-            }
-        } else if self.feed_mode != Some(FeedMode::InverseTime) {
-            if std::mem::take(&mut self.feed_is_of_rapid) {
-                self.find(Rule::FeedOfRapid, "");
-            }
-            if std::mem::take(&mut self.feed_is_of_tool_before) {
-                self.find(Rule::FeedAfterToolChange, "");
-            }
-        }
-    }
-
-    /// Feed in millimetres a minute for a way of `length`; 0 where there is none, which is a finding.
-    fn feed_for(&mut self, length: f64, block: &Block) -> f64 {
-        let feed = match self.feed_mode {
-            // F is one over the minutes that the motion takes, and holds for its line only.
-            Some(FeedMode::InverseTime) => block.value('F').map(|f| f * length),
-            _ => self.feed,
-        };
-        let missing = match self.feed_mode {
-            Some(FeedMode::InverseTime) => block.value('F').is_none_or(|f| f <= 0.0),
-            _ => self.feed.is_none_or(|f| f <= 0.0),
-        };
-        if missing {
-            self.find(Rule::NoFeed, "");
-        }
-        feed.unwrap_or(0.0).max(0.0)
     }
 }
