@@ -10,34 +10,49 @@
 //! in x and y only at the safe height; it enters the stock only by a ramp or a straight plunge at the plunge feed.
 //! Refused: regions with concave features tighter than the tool, jobs with values that make no sense.
 
+mod against;
 mod certificate;
 mod contour;
 mod entry;
+mod event;
 mod fit;
 mod gouge;
+mod height_map;
 mod job;
 mod job_file;
+mod keepout;
+mod levels;
 mod motion;
 mod offset;
+mod operation;
 mod order;
 mod path_radius;
 mod plan;
 mod removal;
 mod side;
 mod simplify;
+mod simulate;
 mod solid;
+mod stock;
+mod stock_surface;
 mod stroke;
+mod sweep;
 #[cfg(test)]
 pub(crate) mod test_shapes;
 mod time;
 mod tool;
+mod tool_table;
+mod tool_text;
 mod toolpath;
 mod walk;
 
+pub use against::{Against, AgainstOptions, against};
 pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, certify, statistics};
 pub use contour::Contour;
+pub use event::{Event, EventKind};
 pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};
 pub use gouge::{Gouge, deepest_cut};
+pub use height_map::{CHORD_TOLERANCE, HeightMap, MapError};
 pub use job::{
     DEFAULT_ACCELERATION, DEFAULT_DEPTH, DEFAULT_DEPTH_PER_PASS, DEFAULT_DIRECTION, DEFAULT_DWELL, DEFAULT_ENTRY,
     DEFAULT_FEED, DEFAULT_ORIGIN, DEFAULT_PATH_RADIUS, DEFAULT_PLUNGE_FEED, DEFAULT_SAFE_CLEARANCE, DEFAULT_SIDE,
@@ -45,13 +60,21 @@ pub use job::{
     Origin, PathRadius,
 };
 pub use job_file::{DialectName, JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
+pub use keepout::{Keepout, ParseKeepoutError};
+pub use levels::{CutLevel, LevelError, cut_levels};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
+pub use operation::{OPERATION_COMMENT, OperationRun};
 pub use path_radius::{PathPlace, TightestTurns, tightest_turns};
-pub use plan::{PlanError, plan};
+pub use plan::{PlanError, plan, translation};
 pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
 pub use side::Side;
+pub use simulate::{DEFAULT_SPOIL, SimulateError, SimulateOptions, Simulation, check_tools, simulate};
 pub use solid::Remainder;
-pub use time::{Machine, ProgramTime, estimate};
+pub use stock::Stock;
+pub use stock_surface::{StockSurface, stock_surface};
+pub use time::{Machine, ProgramTime, estimate, motion_seconds};
 pub use tool::{Tool, ToolShape};
+pub use tool_table::ToolTable;
+pub use tool_text::ParseToolError;
 pub use toolpath::{Move, MoveKind, Settings, Step, Toolpath};

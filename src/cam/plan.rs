@@ -85,7 +85,7 @@ fn shortest_ramped(job: &Job) -> f64 {
 }
 
 /// What brings the origin to where the job wants it.
-fn translation(origin: Origin, part: &Region) -> Vector {
+pub fn translation(origin: Origin, part: &Region) -> Vector {
     let bounds = part.bounds();
     match origin {
         _ if bounds.is_empty() => Vector::zeros(),

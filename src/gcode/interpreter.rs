@@ -66,6 +66,10 @@ struct Interpreter {
     feed: Option<f64>,
     spindle_on: bool,
     spindle_speed: f64,
+    /// The number of the last T word.
+    chosen_tool: u32,
+    /// The tool that the last M6 has put into the spindle; `None` before the first.
+    loaded_tool: Option<u32>,
     position: Point3,
     z_is_known: bool,
     highest: f64,
@@ -173,8 +177,12 @@ impl Interpreter {
             self.spindle_speed = s;
             self.out.program.spindle_speed = self.out.program.spindle_speed.max(s);
         }
+        if let Some(number) = block.value('T').filter(|t| (0.0..=f64::from(u32::MAX)).contains(t)) {
+            self.chosen_tool = number as u32;
+        }
         if tool_stop {
             self.spindle_on = false;
+            self.change_tool();
         }
         if let Some(on) = spindle {
             self.spindle_on = on;
@@ -233,8 +241,25 @@ impl Interpreter {
         self.unit.unwrap_or(ProgramUnit::Millimetre).millimetres()
     }
 
+    /// M6. Where a program has one, a T word is but a choice for the next, as in LinuxCNC; the tool that motions before the
+    /// first M6 were made with is then not known. Without any, T itself is the change: by hand, or on controllers without M6.
+    fn change_tool(&mut self) {
+        if self.loaded_tool.is_none() {
+            self.out.program.motions.iter_mut().for_each(|m| m.tool = 0);
+        }
+        self.loaded_tool = Some(self.chosen_tool);
+    }
+
     fn push(&mut self, to: Point3, kind: MotionKind) {
-        let motion = Motion { line: self.line, from: self.position, to, kind, spindle_on: self.spindle_on };
+        let motion = Motion {
+            line: self.line,
+            from: self.position,
+            to,
+            kind,
+            spindle_on: self.spindle_on,
+            spindle_speed: self.spindle_speed,
+            tool: self.loaded_tool.unwrap_or(self.chosen_tool),
+        };
         self.out.program.motions.push(motion);
         self.position = to;
         self.highest = self.highest.max(to.z);
