@@ -32,7 +32,7 @@ pub fn islands(program: &Program, pocket: &Region, tool_radius: f64, floor: f64)
     let polygon = |ring: &Ring| ring.flatten(tolerance).iter().map(|p| [p.x, p.y]).collect::<Polygon>();
     let area: Vec<Polygon> = pocket.rings.iter().map(polygon).collect();
     let mut swept: Vec<Polygon> = Vec::new();
-    for path in paths_at_floor(program, floor) {
+    for path in paths_at_floor(&program.motions, floor) {
         match path.as_slice() {
             [point] if point.start == point.end => swept.push(stroke.disk(point.start)),
             _ => swept.extend(stroke.rings(&path)),

@@ -10,20 +10,26 @@
 //! in x and y only at the safe height; it enters the stock only by a ramp or a straight plunge at the plunge feed.
 //! Refused: regions with concave features tighter than the tool, jobs with values that make no sense.
 
+mod against;
 mod certificate;
 mod contour;
 mod entry;
+mod event;
 mod fit;
 mod gouge;
+mod height_map;
 mod islands;
 mod job;
 mod job_file;
+mod keepout;
 mod lay;
 mod lead;
+mod levels;
 mod motion;
 mod offset;
 mod operation;
 mod operation_check;
+mod operation_run;
 mod order;
 mod path_radius;
 mod plan;
@@ -31,20 +37,29 @@ mod removal;
 mod setup;
 mod side;
 mod simplify;
+mod simulate;
 mod solid;
+mod stock;
+mod stock_surface;
 mod stroke;
+mod sweep;
 mod tabs;
 #[cfg(test)]
 pub(crate) mod test_shapes;
 mod time;
 mod tool;
+mod tool_table;
+mod tool_text;
 mod toolpath;
 mod walk;
 
+pub use against::{Against, AgainstOptions, against};
 pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, certify, statistics};
 pub use contour::Contour;
+pub use event::{Event, EventKind};
 pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};
 pub use gouge::{Gouge, deepest_cut};
+pub use height_map::{CHORD_TOLERANCE, HeightMap, MapError};
 pub use islands::{Island, islands};
 pub use job::{
     DEFAULT_ACCELERATION, DEFAULT_DEPTH, DEFAULT_DEPTH_PER_PASS, DEFAULT_DIRECTION, DEFAULT_DWELL, DEFAULT_ENTRY,
@@ -53,21 +68,29 @@ pub use job::{
     Origin, PathRadius,
 };
 pub use job_file::{JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
+pub use keepout::{Keepout, ParseKeepoutError};
 pub use lay::{Hole, Notice};
+pub use levels::{CutLevel, LevelError, cut_levels};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
 pub use operation::{CutLine, Geometry, Keep, OperationError, Planned, TabPlace, plan_operation};
-pub use operation_check::{OPERATION_COMMENT, OperationCheck, check_operation, split_operations};
+pub use operation_check::{OperationCheck, check_operation, split_operations};
+pub use operation_run::{OPERATION_COMMENT, OperationRun};
 pub use path_radius::{PathPlace, TightestTurns, tightest_turns};
-pub use plan::{PlanError, plan};
+pub use plan::{PlanError, plan, translation};
 pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
 pub use setup::{
-    Corners, Cutting, InvalidSetup, Keepout, Operation, OperationKind, Pattern, Rig, SETUP_VERSION, SampleShape,
-    SelectFile, Setup, SetupFile, SetupProblem, Steps, Stock, TabPlaces, Tabs, Words, chip_load, commented_sample,
+    Corners, Cutting, InvalidSetup, Operation, OperationKind, Pattern, Rig, SETUP_VERSION, SampleShape, SelectFile,
+    Setup, SetupFile, SetupProblem, Steps, TabPlaces, Tabs, Words, Workpiece, chip_load, commented_sample,
     surface_speed,
 };
 pub use side::Side;
+pub use simulate::{DEFAULT_SPOIL, SimulateError, SimulateOptions, Simulation, check_tools, simulate};
 pub use solid::Remainder;
-pub use time::{Machine, ProgramTime, estimate};
+pub use stock::Stock;
+pub use stock_surface::{StockSurface, stock_surface};
+pub use time::{Machine, ProgramTime, estimate, motion_seconds};
 pub use tool::{Tool, ToolShape};
+pub use tool_table::ToolTable;
+pub use tool_text::ParseToolError;
 pub use toolpath::{Move, MoveKind, Settings, Step, Toolpath};

@@ -18,6 +18,10 @@ pub struct Motion {
     pub kind: MotionKind,
     /// Whether the spindle turns.
     pub spindle_on: bool,
+    /// Turns of the spindle a minute, as last asked for, whether or not it turns; 0 where the program has not asked yet.
+    pub spindle_speed: f64,
+    /// The number of the tool in the spindle; 0 where the program has not named one yet.
+    pub tool: u32,
 }
 
 /// How the tool gets from one place to another.
@@ -226,7 +230,8 @@ mod tests {
     fn a_full_circle_traces_two_halves() {
         let at = Point3::new(5.0, 0.0, 0.0);
         let kind = MotionKind::Arc { center: Point::origin(), turn: Turn::Left, feed: 100.0 };
-        let motion = Motion { line: 1, from: at, to: Point3::new(5.0, 0.0, -3.0), kind, spindle_on: true };
+        let to = Point3::new(5.0, 0.0, -3.0);
+        let motion = Motion { line: 1, from: at, to, kind, spindle_on: true, spindle_speed: 1000.0, tool: 1 };
         assert_eq!(motion.trace().count(), 2);
         let helix = (10.0 * std::f64::consts::PI).hypot(3.0);
         assert!((motion.length() - helix).abs() < 1e-12);

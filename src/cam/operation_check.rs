@@ -9,12 +9,10 @@ use super::gouge::{Gouge, deepest_cut};
 use super::islands::{Island, islands};
 use super::motion::{Motion, Program};
 use super::operation::{Keep, Planned};
+use super::operation_run::OPERATION_COMMENT;
 use super::removal::{Uncut, uncut};
 use super::setup::{Operation, OperationKind};
-use super::time::{Machine, estimate};
-
-/// What a comment that names an operation begins with.
-pub const OPERATION_COMMENT: &str = "operation ";
+use super::time::{Machine, motion_seconds};
 
 /// How far a tool may pass below the top of a tab, in millimetres: rounding of the text.
 const TAB_ROUNDING: f64 = 0.002;
@@ -101,15 +99,13 @@ pub fn check_operation(
     };
     let cutting = &operation.cutting;
     let asked_passes = match operation.kind {
-        OperationKind::Profile { .. } | OperationKind::Pocket { .. } => {
-            cutting.pass_heights(stock_top).len()
-        }
+        OperationKind::Profile { .. } | OperationKind::Pocket { .. } => cutting.pass_heights(stock_top).len(),
         _ => 0,
     };
     OperationCheck {
         label: operation.label.clone(),
         tool: tool.number,
-        seconds: estimate(program, machine).total_seconds(),
+        seconds: motion_seconds(program, machine).iter().sum(),
         gouge: against(&|k| deepest_cut(program, &k.part, k.remainder, k.distance, stock_top)),
         overcut: against(&|k| deepest_cut(program, &k.kept, k.remainder, k.distance, stock_top)),
         uncut,

@@ -87,7 +87,7 @@ pub fn plan(job: &Job, part: &Region, closed: &Region) -> Result<Toolpath, PlanE
 }
 
 /// What brings the origin to where the job wants it.
-fn translation(origin: Origin, part: &Region) -> Vector {
+pub fn translation(origin: Origin, part: &Region) -> Vector {
     let bounds = part.bounds();
     match origin {
         _ if bounds.is_empty() => Vector::zeros(),

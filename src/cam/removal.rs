@@ -11,7 +11,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 
-use super::motion::{MotionKind, Program};
+use super::motion::{Motion, MotionKind, Program};
 use super::solid::{Remainder, Solid};
 use super::stroke::{Polygon, Stroke, joined_lines};
 use crate::plane::{Bounds, Point, Region, Ring, Segment, inscribed_circle};
@@ -62,19 +62,37 @@ pub struct UncutPlace {
 ///
 /// `floor` is z in millimetres; motions above it leave material below them and do not count.
 pub fn uncut(program: &Program, part: &Region, remainder: Remainder, tool_radius: f64, floor: f64) -> Uncut {
-    let paths = paths_at_floor(program, floor);
-    if part.is_empty() || paths.is_empty() || tool_radius <= 0.0 {
+    uncut_by(&[Run { motions: &program.motions, tool_radius }], part, remainder, floor)
+}
+
+/// Motions that follow each other with one tool.
+pub(super) struct Run<'a> {
+    pub(super) motions: &'a [Motion],
+    pub(super) tool_radius: f64,
+}
+
+/// What several tools together leave standing next to `part`, as [`uncut`] tells of one.
+pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor: f64) -> Uncut {
+    let paths: Vec<(Vec<Vec<Segment>>, f64)> = runs
+        .iter()
+        .map(|run| (paths_at_floor(run.motions, floor), run.tool_radius))
+        .filter(|(paths, radius)| !paths.is_empty() && *radius > 0.0)
+        .collect();
+    if part.is_empty() || paths.is_empty() {
         return Uncut::default();
     }
-    let reach = paths.iter().flatten().fold(part.bounds(), |b, s| b.union(s.bounds()));
-    let frame = reach.inflated(4.0 * tool_radius);
-    let stroke = Stroke { radius: tool_radius, tolerance: tool_radius * RELATIVE_FLATTENING };
+    let elements = paths.iter().flat_map(|(paths, _)| paths.iter().flatten());
+    let reach = elements.fold(part.bounds(), |b, s| b.union(s.bounds()));
+    let frame = reach.inflated(4.0 * paths.iter().map(|(_, radius)| *radius).fold(0.0, f64::max));
     let mut cut = Vec::new();
-    for path in &paths {
-        match path.as_slice() {
-            // A plunge.
-            [point] if point.start == point.end => cut.push(stroke.disk(point.start)),
-            _ => cut.extend(stroke.rings(&joined_lines(path, STRAIGHTNESS))),
+    for (paths, radius) in &paths {
+        let stroke = Stroke { radius: *radius, tolerance: radius * RELATIVE_FLATTENING };
+        for path in paths {
+            match path.as_slice() {
+                // A plunge.
+                [point] if point.start == point.end => cut.push(stroke.disk(point.start)),
+                _ => cut.extend(stroke.rings(&joined_lines(path, STRAIGHTNESS))),
+            }
         }
     }
     // The part with its skin.
@@ -113,11 +131,11 @@ pub fn uncut(program: &Program, part: &Region, remainder: Remainder, tool_radius
 
 /// The paths of all motions at the floor, joined where they follow each other; each trace once. A plunge is a line
 /// without length.
-pub(super) fn paths_at_floor(program: &Program, floor: f64) -> Vec<Vec<Segment>> {
+pub(super) fn paths_at_floor(motions: &[Motion], floor: f64) -> Vec<Vec<Segment>> {
     let mut seen = HashSet::new();
     let mut paths: Vec<Vec<Segment>> = Vec::new();
     let mut is_open = false;
-    for motion in &program.motions {
+    for motion in motions {
         if matches!(motion.kind, MotionKind::Dwell { .. }) {
             continue;
         }

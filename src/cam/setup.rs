@@ -5,7 +5,7 @@ mod locate;
 mod resolve;
 mod sample;
 
-use super::{Direction, Entry, Machine, PathRadius, Side, Tool};
+use super::{Direction, Entry, Keepout, Machine, PathRadius, Side, Tool};
 use crate::rolling::Topology;
 use crate::units::Speed;
 pub use file::{InvalidSetup, SelectFile, SetupFile, SetupProblem, Words};
@@ -16,7 +16,7 @@ pub const SETUP_VERSION: i64 = 1;
 
 /// What is cut.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stock {
+pub struct Workpiece {
     /// Extent along x and y, where it is known.
     pub size: Option<[f64; 2]>,
     /// Thickness, where it is known.
@@ -25,17 +25,6 @@ pub struct Stock {
     pub top: f64,
     /// What it is made of: chooses the feeds of the tools.
     pub material: Option<String>,
-}
-
-/// Where the tool must not go.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Keepout {
-    /// Least and largest x.
-    pub x: [f64; 2],
-    /// Least and largest y.
-    pub y: [f64; 2],
-    /// z up to which it stands; above every move where it is not said.
-    pub top: f64,
 }
 
 /// How the machine is told what to do, and what it can.
@@ -63,7 +52,7 @@ pub struct Rig {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// What is cut.
-    pub stock: Stock,
+    pub stock: Workpiece,
     /// The machine.
     pub rig: Rig,
     /// The tools, as the operations refer to them.

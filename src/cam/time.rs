@@ -69,25 +69,39 @@ struct Move {
     acceleration: f64,
     /// Square of the speed at the start of the move, limited by the joint before it, then by the passes.
     entry_squared: f64,
-    is_rapid: bool,
+    /// The motion that it is a part of, counted from 0.
+    motion: usize,
 }
 
 /// The time that `machine` takes for `program`.
 pub fn estimate(program: &Program, machine: &Machine) -> ProgramTime {
     let mut time = ProgramTime::default();
+    for (motion, seconds) in program.motions.iter().zip(motion_seconds(program, machine)) {
+        *(match motion.kind {
+            MotionKind::Dwell { .. } => &mut time.dwell_seconds,
+            MotionKind::Rapid => &mut time.rapid_seconds,
+            MotionKind::Feed { .. } | MotionKind::Arc { .. } => &mut time.feed_seconds,
+        }) += seconds;
+    }
+    time
+}
+
+/// The seconds that `machine` takes for each motion of `program`, in order.
+pub fn motion_seconds(program: &Program, machine: &Machine) -> Vec<f64> {
+    let mut seconds = vec![0.0; program.motions.len()];
     let mut moves: Vec<Move> = Vec::new();
-    for motion in &program.motions {
+    for (index, motion) in program.motions.iter().enumerate() {
         match motion.kind {
-            MotionKind::Dwell { seconds } => {
+            MotionKind::Dwell { seconds: wait } => {
                 // The planner runs empty before a dwell: the machine stops.
-                run(&mut moves, &mut time);
-                time.dwell_seconds += seconds;
+                run(&mut moves, &mut seconds);
+                seconds[index] = wait;
             }
-            _ => split(motion, machine, |to, from| push_move(&mut moves, motion, from, to, machine)),
+            _ => split(motion, machine, |to, from| push_move(&mut moves, (index, motion), from, to, machine)),
         }
     }
-    run(&mut moves, &mut time);
-    time
+    run(&mut moves, &mut seconds);
+    seconds
 }
 
 /// The moves of a motion, in order, as (end, start).
@@ -111,7 +125,7 @@ fn split(motion: &Motion, machine: &Machine, mut emit: impl FnMut(Point3, Point3
     emit(motion.to, from);
 }
 
-fn push_move(moves: &mut Vec<Move>, motion: &Motion, from: Point3, to: Point3, machine: &Machine) {
+fn push_move(moves: &mut Vec<Move>, (index, motion): (usize, &Motion), from: Point3, to: Point3, machine: &Machine) {
     let way = to - from;
     let length = way.norm();
     if !(length > 0.0 && length.is_finite()) {
@@ -126,7 +140,7 @@ fn push_move(moves: &mut Vec<Move>, motion: &Motion, from: Point3, to: Point3, m
         let junction = junction_speed_squared(before, direction, machine);
         junction.min(nominal * nominal).min(before.nominal * before.nominal)
     });
-    moves.push(Move { length, direction, nominal, acceleration, entry_squared, is_rapid: motion.is_rapid() });
+    moves.push(Move { length, direction, nominal, acceleration, entry_squared, motion: index });
 }
 
 /// What limits of the axes leave along `direction`.
@@ -150,8 +164,8 @@ fn junction_speed_squared(before: &Move, direction: Vector3, machine: &Machine) 
     acceleration * machine.junction_deviation * sine / (1.0 - sine)
 }
 
-/// Plans the moves from a stop to a stop, adds their time and forgets them.
-fn run(moves: &mut Vec<Move>, time: &mut ProgramTime) {
+/// Plans the moves from a stop to a stop, adds their time to that of their motions and forgets them.
+fn run(moves: &mut Vec<Move>, seconds: &mut [f64]) {
     let mut exit_squared = 0.0;
     for m in moves.iter_mut().rev() {
         m.entry_squared = m.entry_squared.min(exit_squared + 2.0 * m.acceleration * m.length);
@@ -164,8 +178,7 @@ fn run(moves: &mut Vec<Move>, time: &mut ProgramTime) {
     }
     for i in 0..moves.len() {
         let exit_squared = moves.get(i + 1).map_or(0.0, |next| next.entry_squared);
-        let seconds = trapezoid_seconds(&moves[i], exit_squared);
-        *(if moves[i].is_rapid { &mut time.rapid_seconds } else { &mut time.feed_seconds }) += seconds;
+        seconds[moves[i].motion] += trapezoid_seconds(&moves[i], exit_squared);
     }
     moves.clear();
 }
@@ -187,7 +200,11 @@ mod tests {
     use crate::plane::Turn;
 
     fn feed(to: Point3, from: Point3) -> Motion {
-        Motion { line: 1, from, to, kind: MotionKind::Feed { feed: 2000.0 }, spindle_on: true }
+        motion(to, from, MotionKind::Feed { feed: 2000.0 })
+    }
+
+    fn motion(to: Point3, from: Point3, kind: MotionKind) -> Motion {
+        Motion { line: 1, from, to, kind, spindle_on: true, spindle_speed: 1000.0, tool: 1 }
     }
 
     fn machine(acceleration: f64) -> Machine {
@@ -225,14 +242,8 @@ mod tests {
     fn sharp_corners_crawl() {
         let up = Vector3::new(5.0, 10.0, 0.0).normalize();
         let down = Vector3::new(5.0, -10.0, 0.0).normalize();
-        let before = Move {
-            length: 1.0,
-            direction: up,
-            nominal: 33.0,
-            acceleration: 500.0,
-            entry_squared: 0.0,
-            is_rapid: false,
-        };
+        let before =
+            Move { length: 1.0, direction: up, nominal: 33.0, acceleration: 500.0, entry_squared: 0.0, motion: 0 };
         let mm_per_min = 60.0 * junction_speed_squared(&before, down, &machine(500.0)).sqrt();
         assert!((mm_per_min - 121.0).abs() < 1.0, "{mm_per_min}");
     }
@@ -241,11 +252,11 @@ mod tests {
     fn dwells_and_rapids_are_counted_apart() {
         let here = at(0.0, 0.0);
         let there = at(30.0, 0.0);
-        let motions = vec![
-            Motion { line: 1, from: here, to: here, kind: MotionKind::Dwell { seconds: 2.5 }, spindle_on: true },
-            Motion { line: 2, from: here, to: there, kind: MotionKind::Rapid, spindle_on: true },
-        ];
-        let time = estimate(&Program { motions, ..Program::default() }, &machine(500.0));
+        let motions =
+            vec![motion(here, here, MotionKind::Dwell { seconds: 2.5 }), motion(there, here, MotionKind::Rapid)];
+        let program = Program { motions, ..Program::default() };
+        let time = estimate(&program, &machine(500.0));
+        assert_eq!(motion_seconds(&program, &machine(500.0)), [time.dwell_seconds, time.rapid_seconds]);
         assert_eq!(time.dwell_seconds, 2.5);
         assert_eq!(time.feed_seconds, 0.0);
         let v: f64 = 5000.0 / 60.0;
@@ -266,7 +277,7 @@ mod tests {
         let mut place: Option<Point3> = None;
         let mut go = |to: Point3, kind: MotionKind| {
             if let Some(from) = place {
-                motions.push(Motion { line: 1, from, to, kind, spindle_on: true });
+                motions.push(motion(to, from, kind));
             }
             place = Some(to);
         };

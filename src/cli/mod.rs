@@ -11,6 +11,7 @@ mod mill;
 mod output;
 mod preview;
 mod report;
+mod simulate;
 mod surface;
 mod text;
 
@@ -50,6 +51,8 @@ enum Command {
     Surface(Box<surface::SurfaceArgs>),
     /// Look for what a controller would refuse and what a machine should not do, in anyone's program
     Lint(lint::LintArgs),
+    /// Run anyone's program on a block of stock: what it cuts, how long it takes, and what goes wrong on the way
+    Simulate(Box<simulate::SimulateArgs>),
 }
 
 /// How a command ended, for those who run it in a script.
@@ -89,6 +92,7 @@ pub fn main() -> ExitCode {
         Command::Font(args) => font::run(&args),
         Command::Surface(args) => surface::run(&args),
         Command::Lint(args) => lint::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
     };
     match result {
         Ok(status) => status.into(),

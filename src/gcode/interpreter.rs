@@ -74,6 +74,10 @@ struct Interpreter<'a> {
     feed_is_of_tool_before: bool,
     spindle_on: bool,
     spindle_speed: f64,
+    /// The number of the last T word.
+    chosen_tool: u32,
+    /// The tool that the last M6 has put into the spindle; `None` before the first.
+    loaded_tool: Option<u32>,
     position: Point3,
     z_is_known: bool,
     highest: f64,
@@ -199,6 +203,9 @@ impl<'a> Interpreter<'a> {
             self.spindle_speed = s;
             self.out.program.spindle_speed = self.out.program.spindle_speed.max(s);
         }
+        if let Some(number) = block.value('T').filter(|t| (0.0..=f64::from(u32::MAX)).contains(t)) {
+            self.chosen_tool = number as u32;
+        }
         if tool_stop {
             self.change_tool();
         }
@@ -252,6 +259,11 @@ impl<'a> Interpreter<'a> {
         self.z_is_known = !self.dialect().knows_letter('Z');
         self.feed_is_of_tool_before = self.feed.is_some();
         self.out.tool_changes.push(self.out.program.motions.len());
+        // Before the first change T alone names no tool in the spindle: it only makes one ready.
+        if self.loaded_tool.is_none() {
+            self.out.program.motions.iter_mut().for_each(|m| m.tool = 0);
+        }
+        self.loaded_tool = Some(self.chosen_tool);
     }
 
     fn set_unit(&mut self, unit: ProgramUnit) {
@@ -272,7 +284,15 @@ impl<'a> Interpreter<'a> {
     }
 
     fn push(&mut self, to: Point3, kind: MotionKind) {
-        let motion = Motion { line: self.line, from: self.position, to, kind, spindle_on: self.spindle_on };
+        let motion = Motion {
+            line: self.line,
+            from: self.position,
+            to,
+            kind,
+            spindle_on: self.spindle_on,
+            spindle_speed: self.spindle_speed,
+            tool: self.loaded_tool.unwrap_or(self.chosen_tool),
+        };
         self.out.program.motions.push(motion);
         self.position = to;
         self.highest = self.highest.max(to.z);

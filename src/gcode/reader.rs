@@ -115,6 +115,24 @@ mod tests {
     }
 
     #[test]
+    fn tools_are_changed_by_m6_or_by_t_where_there_is_none() {
+        let tools = |text: &str| read(text).unwrap().motions.iter().map(|m| m.tool).collect::<Vec<_>>();
+        assert_eq!(tools("G21 G90\nG0 Z5\nT1\nG0 X1\nT2\nG0 X2"), [0, 1, 2]);
+        // T3 is made ready while T2 still cuts.
+        assert_eq!(tools("G21 G90\nG0 Z5\nT2 M6\nG0 X1\nT3\nG0 X2\nM6\nG0 X3"), [0, 2, 2, 3]);
+        // What is in the spindle before the first change, T does not say.
+        assert_eq!(tools("G21 G90\nT1\nG0 Z5\nM6 T2\nG0 X1"), [0, 2]);
+        assert_eq!(tools("G21 G90\nT70001\nG0 Z5"), [70001]);
+    }
+
+    #[test]
+    fn motions_know_the_spindle_speed() {
+        let program = read("G21 G90\nG0 Z5\nM3 S900\nG0 X1\nS1200\nG0 X2\nM5\nG0 X3").unwrap();
+        let found: Vec<_> = program.motions.iter().map(|m| (m.spindle_on, m.spindle_speed)).collect();
+        assert_eq!(found, [(false, 0.0), (true, 900.0), (true, 1200.0), (false, 1200.0)]);
+    }
+
+    #[test]
     fn an_unclosed_comment_swallows_no_line() {
         assert_eq!(ends("G21 G90 (tool\nG0 Z5 (up)\nX1").len(), 2);
     }

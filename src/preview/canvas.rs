@@ -36,6 +36,11 @@ impl View {
         Point::new(self.origin.x + self.scale * p.x, self.origin.y - self.scale * p.y)
     }
 
+    /// The place of the plane that a pixel shows: the other way round.
+    pub(super) fn place(&self, pixel: Point) -> Point {
+        Point::new((pixel.x - self.origin.x) / self.scale, (self.origin.y - pixel.y) / self.scale)
+    }
+
     /// Points of `element` after its start, in pixels.
     fn trace(&self, element: &Segment, mut emit: impl FnMut(Point)) {
         element.flatten(FLATTENING / self.scale, |p| emit(self.pixel(p)));
@@ -203,6 +208,17 @@ impl Canvas {
         move_to(&mut builder, from);
         line_to(&mut builder, to);
         self.stroke_dashed(builder.finish().as_ref(), color, width, dash, None);
+    }
+
+    /// Colours the pixels whose middles `color` has one for; it is asked with their places in the view.
+    pub(super) fn shade(&mut self, view: &View, color: impl Fn(Point) -> Option<[u8; 3]>) {
+        let width = self.pixmap.width() as usize;
+        for (index, pixel) in self.pixmap.pixels_mut().iter_mut().enumerate() {
+            let middle = Point::new((index % width) as f64 + 0.5, (index / width) as f64 + 0.5);
+            if let Some([r, g, b]) = color(view.place(middle)) {
+                *pixel = tiny_skia::ColorU8::from_rgba(r, g, b, 255).premultiply();
+            }
+        }
     }
 
     /// Diagonal lines over the whole sheet, within `mask`.

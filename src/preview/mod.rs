@@ -6,6 +6,7 @@
 mod animation;
 mod canvas;
 mod contact;
+mod cut_stock;
 mod frame;
 mod indexed;
 mod lettering;
@@ -21,6 +22,7 @@ mod state;
 
 pub use animation::{Picture, animation};
 pub use contact::{Cell, contact_sheet};
+pub use cut_stock::{cut_level, cut_stock};
 pub use frame::{Frame, time_captions};
 pub use mesh::{MeshStyle, mesh, meshes};
 pub use mesh_raster::Shading;

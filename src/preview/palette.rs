@@ -32,6 +32,11 @@ pub(super) const ORIGIN: Rgba = [112, 72, 232, 255];
 pub(super) const ADDED: Rgba = [252, 194, 215, 255];
 pub(super) const REMOVED: Rgba = [165, 216, 255, 255];
 
+/// Where stock is cut through.
+pub(super) const THROUGH: Rgba = [241, 243, 245, 255];
+/// Where something went wrong.
+pub(super) const WRONG: Rgba = [224, 49, 49, 255];
+
 /// From the first pass to the last: light to dark, and readable to the colour-blind.
 const DEPTHS: [Rgba; 4] = [[116, 192, 252, 255], [51, 154, 240, 255], [24, 100, 171, 255], [11, 39, 94, 255]];
 

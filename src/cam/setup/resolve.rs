@@ -8,8 +8,9 @@ use std::ops::Range;
 
 use super::file::{InvalidSetup, KeepoutFile, SetupFile, SetupProblem, refuse_flags};
 use super::locate::Locator;
-use super::{Keepout, Operation, Rig, SETUP_VERSION, Setup, Stock};
-use crate::cam::{DEFAULT_DWELL, DEFAULT_SAFE_CLEARANCE, JobFile, Machine, Tool};
+use super::{Operation, Rig, SETUP_VERSION, Setup, Workpiece};
+use crate::cam::{DEFAULT_DWELL, DEFAULT_SAFE_CLEARANCE, JobFile, Keepout, Machine, Tool};
+use crate::plane::{Bounds, Point};
 use crate::units::{DrawingScale, Length, nearest};
 
 /// Largest length a job may name, in millimetres: beyond any machine.
@@ -139,8 +140,10 @@ impl Resolver<'_> {
         }
         let keepouts: Vec<Keepout> = file.keepout.iter().map(|k| self.keepout(k.get_ref(), &k.span())).collect();
         for (k, one) in keepouts.iter().enumerate() {
-            let over = |a: [f64; 2], b: [f64; 2]| a[0] < b[1] && b[0] < a[1];
-            if let Some(j) = keepouts[..k].iter().position(|other| over(one.x, other.x) && over(one.y, other.y)) {
+            let over = |a: &Bounds, b: &Bounds| {
+                a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y
+            };
+            if let Some(j) = keepouts[..k].iter().position(|other| over(&one.outline, &other.outline)) {
                 let (line, other) =
                     (self.locator.line(file.keepout[k].span().start), self.locator.line(file.keepout[j].span().start));
                 self.complain(line, format!("this keepout overlaps that of line {other}: make one of them"));
@@ -164,7 +167,7 @@ impl Resolver<'_> {
         Setup { stock, rig, tools, keepouts, operations }
     }
 
-    fn stock(&mut self, file: &SetupFile) -> Stock {
+    fn stock(&mut self, file: &SetupFile) -> Workpiece {
         let top_line = self.locator.line_in("stock", "top");
         let mut length = |key: &str, length: Option<Length>| {
             let mm = length?.to_millimetres(self.scale);
@@ -197,10 +200,15 @@ impl Resolver<'_> {
                 0.0
             }
         };
-        Stock { size: width.zip(height).map(|(w, h)| [w, h]), thickness, top, material: file.stock.material.clone() }
+        Workpiece {
+            size: width.zip(height).map(|(w, h)| [w, h]),
+            thickness,
+            top,
+            material: file.stock.material.clone(),
+        }
     }
 
-    fn rig(&mut self, file: &SetupFile, stock: &Stock) -> Rig {
+    fn rig(&mut self, file: &SetupFile, stock: &Workpiece) -> Rig {
         let machine = &file.machine;
         let default = Machine::default();
         let mut axes = |key: &str, typed: Option<[f64; 3]>, default: [f64; 3]| match typed {
@@ -271,6 +279,7 @@ impl Resolver<'_> {
                 );
             }
         }
-        Keepout { x: file.x, y: file.y, top: file.top.unwrap_or(f64::INFINITY) }
+        let corners = [Point::new(file.x[0], file.y[0]), Point::new(file.x[1], file.y[1])];
+        Keepout { outline: Bounds::of_points(corners), top: file.top.unwrap_or(f64::INFINITY) }
     }
 }

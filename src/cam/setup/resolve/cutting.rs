@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{LARGEST_LENGTH, Place, Resolver};
 use crate::cam::job_file::TypedPathRadius;
 use crate::cam::setup::file::{OperationFile, OperationKindName, RatesFile, TabsFile, ToolFile};
-use crate::cam::setup::{Cutting, Steps, Stock, TabPlaces, Tabs};
+use crate::cam::setup::{Cutting, Steps, TabPlaces, Tabs, Workpiece};
 use crate::cam::{
     DEFAULT_DEPTH_PER_PASS, DEFAULT_DIRECTION, DEFAULT_ENTRY, DEFAULT_FEED, DEFAULT_PATH_RADIUS, DEFAULT_PLUNGE_FEED,
     DEFAULT_SPINDLE_SPEED, PathRadius, Tool,
@@ -31,7 +31,7 @@ impl Resolver<'_> {
         &mut self,
         file: &OperationFile,
         table: &Range<usize>,
-        stock: &Stock,
+        stock: &Workpiece,
         tool: &Tool,
         rates: &RatesFile,
         kind: OperationKindName,
@@ -109,7 +109,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn depth(&mut self, file: &OperationFile, table: &Range<usize>, stock: &Stock, kind: OperationKindName) -> f64 {
+    fn depth(&mut self, file: &OperationFile, table: &Range<usize>, stock: &Workpiece, kind: OperationKindName) -> f64 {
         let place = |key| Place { table, key };
         if file.through == Some(true) && self.flags.depth.is_none() {
             if file.depth.is_some() {

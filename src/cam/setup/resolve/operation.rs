@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::cutting::rates;
 use super::{Place, Resolver};
 use crate::cam::setup::file::{OperationFile, OperationKindName, SetupFile};
-use crate::cam::setup::{Corners, Operation, OperationKind, Pattern, Stock};
+use crate::cam::setup::{Corners, Operation, OperationKind, Pattern, Workpiece};
 use crate::cam::{DEFAULT_SIDE, Tool, ToolShape};
 use crate::units::Length;
 
@@ -21,7 +21,7 @@ impl Resolver<'_> {
         file: &OperationFile,
         table: &Range<usize>,
         index: usize,
-        stock: &Stock,
+        stock: &Workpiece,
         tools: &[Tool],
         whole: &SetupFile,
     ) -> Option<Operation> {

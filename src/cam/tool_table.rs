@@ -1,0 +1,76 @@
+//! The tools of a program by their numbers.
+
+use std::collections::BTreeMap;
+
+use super::motion::{Program, ProgramUnit};
+use super::tool::{Tool, ToolShape};
+
+/// Tools by number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ToolTable {
+    tools: BTreeMap<u32, Tool>,
+}
+
+impl ToolTable {
+    /// The tools that `given` and the comments of `program` describe; where both do, what is given holds.
+    ///
+    /// Comments are understood as [`Tool::comment`] writes them and as [`Tool::from_tool_list`] reads them. Where neither tells
+    /// anything and the program uses no more than one tool, [`Program::tool_diameter`] is that of a flat one.
+    pub fn gather(given: &[Tool], program: &Program) -> ToolTable {
+        let unit = program.unit.unwrap_or(ProgramUnit::Millimetre).millimetres();
+        let told = program.comments.iter().filter_map(|comment| {
+            Tool::from_comment(&comment.text).or_else(|| Tool::from_tool_list(&comment.text, unit))
+        });
+        let mut tools: BTreeMap<u32, Tool> = told.map(|tool| (tool.number, tool)).collect();
+        tools.extend(given.iter().map(|tool| (tool.number, tool.clone())));
+        if tools.is_empty() {
+            let first = program.motions.iter().map(|m| m.tool).find(|t| *t != 0).unwrap_or(0);
+            let is_one = program.motions.iter().all(|m| m.tool == first || m.tool == 0);
+            let diameter = program.tool_diameter().filter(|_| is_one);
+            tools.extend(diameter.map(|d| (first, Tool::new(first, ToolShape::Flat, d))));
+        }
+        ToolTable { tools }
+    }
+
+    /// The tool with that number. Where a program names none (0), it is the only one there is.
+    pub fn get(&self, number: u32) -> Option<&Tool> {
+        let only = || self.tools.values().next().filter(|_| number == 0 && self.tools.len() == 1);
+        self.tools.get(&number).or_else(only)
+    }
+
+    /// The tools in the order of their numbers.
+    pub fn iter(&self) -> impl Iterator<Item = &Tool> {
+        self.tools.values()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gcode::read;
+
+    fn table(given: &[&str], text: &str) -> ToolTable {
+        let given: Vec<Tool> = given.iter().map(|t| t.parse().unwrap()).collect();
+        ToolTable::gather(&given, &read(text).unwrap())
+    }
+
+    #[test]
+    fn what_is_given_beats_what_is_told() {
+        let text = "(tool 1 \"mill\" flat diameter 6 mm)\n(T2 D=3. CR=0. - flat end mill)\nG21 G90\nT1\nG0 Z5";
+        let told = table(&[], text);
+        assert_eq!(told.get(1).map(|t| t.diameter), Some(6.0));
+        assert_eq!(told.get(2).map(|t| t.diameter), Some(3.0));
+        assert_eq!((told.get(3), told.get(0)), (None, None));
+        let given = table(&["1=ball 4mm"], text);
+        assert_eq!(given.get(1).map(|t| (t.shape, t.diameter)), Some((ToolShape::Ball, 4.0)));
+        assert_eq!(given.iter().count(), 2);
+    }
+
+    #[test]
+    fn a_program_that_names_no_tool_uses_the_only_one() {
+        assert_eq!(table(&["T7=flat 2mm"], "G0 Z5").get(0).map(|t| t.number), Some(7));
+        assert_eq!(table(&[], "(tool diameter 3.175 mm)\nG21 G90\nT4\nG0 Z5").get(4).map(|t| t.diameter), Some(3.175));
+        let two = table(&[], "(tool diameter 3.175 mm)\nG21 G90\nT4\nG0 Z5\nT5\nG0 X1");
+        assert_eq!(two, ToolTable::default(), "whose diameter it is nobody knows");
+    }
+}

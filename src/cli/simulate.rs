@@ -1,0 +1,189 @@
+//! `clopen simulate FILE.nc`: what anyone's program does to its stock, and what goes wrong on the way.
+
+mod args;
+mod report;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result, bail};
+
+use super::check::FormatArg;
+use super::{ExitStatus, input, output};
+use crate::cam::{
+    self, Against, AgainstOptions, CutLevel, HeightMap, Program, Remainder, Side, SimulateOptions, Simulation, Stock,
+    ToolTable,
+};
+use crate::gcode;
+use crate::io::mesh::{self as files, MeshFormat};
+use crate::mesh::PolygonMesh;
+use crate::plane::Point;
+use crate::preview::{self, DEFAULT_SIZE};
+pub(super) use args::SimulateArgs;
+use report::SimulateReport;
+
+/// Faces of the STL stay this near to the height map, in millimetres: less than paper.
+const STL_TOLERANCE: f64 = 0.01;
+
+/// Runs the command: exit status 1 where something was found.
+///
+/// # Errors
+/// Where the program or the drawing cannot be read, a tool is not known, the stock makes no sense, or a file cannot be written.
+pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
+    check_targets(args)?;
+    let name = || args.file.display().to_string();
+    let text = input::read_text(&args.file)?;
+    if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
+        bail!("{}: this is a drawing and no program: make one of it with `clopen mill` first", name());
+    }
+    let program = gcode::read(&text).with_context(name)?;
+    let tools = ToolTable::gather(&args.tools, &program);
+    let top = input::millimetres(args.stock.stock_top, "--stock-top")?;
+    cam::check_tools(&program, &tools, top).with_context(name)?;
+    let stock = stock(args, &program, &tools, top)?;
+    let options = options(args, &program, &tools, stock)?;
+    let simulation = cam::simulate(&program, &tools, &options).with_context(name)?;
+    let against = against(args, &program, &tools, &stock)?;
+    let levels = match &args.output.levels {
+        Some(_) => cam::cut_levels(&program, &tools, &stock).with_context(name)?,
+        None => Vec::new(),
+    };
+    let contents = contents(args, &simulation, &levels)?;
+    output::write_together(
+        &contents.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect::<Vec<_>>(),
+    )?;
+    let written: Vec<PathBuf> = contents.into_iter().map(|(path, _)| path).collect();
+    let report = SimulateReport {
+        input: &args.file,
+        tools: &tools,
+        used: used(&program, top),
+        stock_is_given: args.stock.stock.is_some(),
+        simulation: &simulation,
+        levels: &levels,
+        against: against.as_ref(),
+        side: args.against.side,
+        written: &written,
+    };
+    let text = match args.format {
+        FormatArg::Text => report.text(),
+        FormatArg::Json => report.json()?,
+    };
+    // Where a picture is on standard output, the report must not be.
+    if written.iter().any(|path| path == Path::new("-")) {
+        output::say(&text);
+    } else {
+        output::print(&text)?;
+    }
+    Ok(if report.is_clean() { ExitStatus::Done } else { ExitStatus::CheckFailed })
+}
+
+/// Before any work: names that cannot be.
+fn check_targets(args: &SimulateArgs) -> Result<()> {
+    if let Some(picture) = &args.output.output {
+        output::keep_png(picture)?;
+    }
+    if let Some(stl) = args.output.stl.as_ref().filter(|p| p.as_path() != Path::new("-"))
+        && MeshFormat::of_path(stl) != Some(MeshFormat::Stl)
+    {
+        bail!("{}: the mesh is an STL: call it {}", stl.display(), stl.with_extension("stl").display());
+    }
+    if args.file == Path::new("-") && args.against.against.as_deref() == Some(Path::new("-")) {
+        bail!("program and drawing cannot both come from standard input: name one of them");
+    }
+    let inputs = [Some(&args.file), args.against.against.as_ref()];
+    let targets = [args.output.output.as_ref(), args.output.stl.as_ref()];
+    for target in targets.into_iter().flatten() {
+        output::keep_folder(target)?;
+        for input in inputs.into_iter().flatten() {
+            output::keep_input(input, target)?;
+        }
+    }
+    Ok(())
+}
+
+fn stock(args: &SimulateArgs, program: &Program, tools: &ToolTable, top: f64) -> Result<Stock> {
+    let found = match (args.stock.size()?, args.stock.corner()?) {
+        (Some(size), Some([x, y])) => Some(Stock::new(Point::new(x, y), size, top)),
+        (Some(size), None) => Stock::around(program, tools, size, top),
+        (None, _) => Stock::of_cuts(program, tools, top),
+    };
+    let Some(stock) = found else {
+        bail!(
+            "{}: nothing goes below z {top}, so that there is nothing to tell the stock by: say where its top is \
+             (--stock-top), or all of it (--stock 100x60x6mm --stock-at 0,0)",
+            args.file.display()
+        );
+    };
+    Ok(stock)
+}
+
+fn options(args: &SimulateArgs, program: &Program, tools: &ToolTable, stock: Stock) -> Result<SimulateOptions> {
+    let smallest = used(program, stock.top_mm).into_iter().filter_map(|n| tools.get(n)).map(|t| t.diameter);
+    let default_cell = || HeightMap::default_cell(&stock, smallest.fold(f64::INFINITY, f64::min).min(LARGEST_TOOL));
+    let cell = args.stock.cell.map(|c| input::millimetres(c, "--cell")).transpose()?;
+    Ok(SimulateOptions {
+        stock,
+        cell: cell.unwrap_or_else(default_cell),
+        keepouts: args.stock.keepouts.clone(),
+        spoil: input::millimetres(args.stock.spoil, "--spoil")?,
+        machine: args.machine()?,
+    })
+}
+
+/// The diameter that cells are chosen for where no tool cuts, in millimetres.
+const LARGEST_TOOL: f64 = 20.0;
+
+/// The numbers of the tools that go below the top of the stock.
+fn used(program: &Program, top: f64) -> Vec<u32> {
+    let mut numbers: Vec<u32> = program.motions.iter().filter(|m| m.is_in_stock(top)).map(|m| m.tool).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
+}
+
+fn against(args: &SimulateArgs, program: &Program, tools: &ToolTable, stock: &Stock) -> Result<Option<Against>> {
+    let Some(path) = &args.against.against else { return Ok(None) };
+    let drawing = args.reading.read(path)?;
+    let Some(mm_per_unit) = drawing.mm_per_unit else {
+        bail!(
+            "{}: the drawing has no physical size: say how many of its units make an inch (--dpi 96) or how wide the part \
+             is (--width 100mm)",
+            path.display()
+        );
+    };
+    let part = drawing.region.scaled(mm_per_unit);
+    let part = part.translated(cam::translation(args.against.origin, &part));
+    let floor = args.against.floor.map(|z| input::millimetres(z, "--floor")).transpose()?;
+    let deepest = program.motions.iter().filter(|m| m.is_feed()).map(|m| m.lowest()).fold(stock.top_mm, f64::min);
+    let remainder = match args.against.side {
+        Side::Outside => Some(Remainder::Inside),
+        Side::Inside => Some(Remainder::Outside),
+        Side::On => None,
+    };
+    let options = AgainstOptions { remainder, stock_top: stock.top_mm, floor: floor.unwrap_or(deepest) };
+    Ok(Some(cam::against(program, tools, &part, &options)))
+}
+
+/// The files that were asked for.
+fn contents(args: &SimulateArgs, simulation: &Simulation, levels: &[CutLevel]) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+    let mut contents = Vec::new();
+    if let Some(path) = &args.output.output {
+        contents.push((path.clone(), preview::cut_stock(&simulation.map, &simulation.events, DEFAULT_SIZE)?));
+    }
+    if let Some(prefix) = &args.output.levels {
+        for (level, number) in levels.iter().zip(1..) {
+            let mut name = prefix.clone().into_os_string();
+            name.push(format!("-{number:02}.png"));
+            let picture = preview::cut_level(level, simulation.map.stock(), DEFAULT_SIZE)?;
+            contents.push((PathBuf::from(name), picture));
+        }
+    }
+    if let Some(path) = &args.output.stl {
+        let surface = cam::stock_surface(&simulation.map, STL_TOLERANCE);
+        if surface.faces.is_empty() {
+            bail!("{}: nothing of the stock is left that a mesh could show; try a smaller --cell", path.display());
+        }
+        let mesh = PolygonMesh::of_triangles(surface.points, &surface.faces);
+        contents.push((path.clone(), files::write(&mesh, MeshFormat::Stl)));
+    }
+    Ok(contents)
+}

@@ -1,0 +1,210 @@
+//! What came of a simulation, in words and as JSON.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use serde_json::json;
+
+use crate::cam::{Against, CutLevel, Event, Gouge, Side, Simulation, Stock, ToolTable};
+
+/// Deeper cuts into the part than this, in millimetres, are a finding: programs of others follow curves by lines that may
+/// stray by as much.
+const GOUGE_LIMIT: f64 = 0.01;
+
+/// Events and places named in words; JSON has them all.
+const SHOWN: usize = 12;
+
+/// All that is to be told.
+pub(super) struct SimulateReport<'a> {
+    pub(super) input: &'a Path,
+    pub(super) tools: &'a ToolTable,
+    /// The numbers of the tools that cut.
+    pub(super) used: Vec<u32>,
+    pub(super) stock_is_given: bool,
+    pub(super) simulation: &'a Simulation,
+    pub(super) levels: &'a [CutLevel],
+    pub(super) against: Option<&'a Against>,
+    pub(super) side: Side,
+    pub(super) written: &'a [PathBuf],
+}
+
+impl SimulateReport<'_> {
+    /// Whether nothing was found that should not be. Leftovers are told, but programs may leave them to another.
+    pub(super) fn is_clean(&self) -> bool {
+        self.simulation.events.is_empty() && !self.gouge().is_some_and(|g| g.depth_mm > GOUGE_LIMIT)
+    }
+
+    fn gouge(&self) -> Option<Gouge> {
+        self.against?.gouge
+    }
+
+    pub(super) fn json(&self) -> Result<String> {
+        let Simulation { map, events, operations, time, removed_mm3 } = self.simulation;
+        let tools: Vec<_> = self.used.iter().filter_map(|number| Some((number, self.tools.get(*number)?))).collect();
+        let tools: Vec<_> = tools
+            .into_iter()
+            .map(|(number, t)| {
+                json!({
+                    "number": number,
+                    "name": t.title(),
+                    "shape": t.shape,
+                    "is_drill": t.is_drill,
+                    "diameter_mm": t.diameter,
+                })
+            })
+            .collect();
+        let value = json!({
+            "program": self.input,
+            "tools": tools,
+            "stock": map.stock(),
+            "stock_is_given": self.stock_is_given,
+            "cell_mm": map.cell(),
+            "operations": operations,
+            "removed_mm3": removed_mm3,
+            "time": time,
+            "total_seconds": time.total_seconds(),
+            "events": events,
+            "levels": self.levels,
+            "against": self.against,
+            "gouge_limit_mm": GOUGE_LIMIT,
+            "clean": self.is_clean(),
+            "written": self.written,
+        });
+        Ok(serde_json::to_string_pretty(&value)? + "\n")
+    }
+
+    pub(super) fn text(&self) -> String {
+        let mut text = String::new();
+        let mut line = |label: &str, value: String| {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{label:<12}{value}");
+        };
+        let Simulation { map, events, time, .. } = self.simulation;
+        line("program", self.input.display().to_string());
+        let Stock { min_x_mm, max_x_mm, min_y_mm, max_y_mm, top_mm, bottom_mm } = *map.stock();
+        line(
+            "stock",
+            format!(
+                "x {min_x_mm:.2} to {max_x_mm:.2}, y {min_y_mm:.2} to {max_y_mm:.2}, z {bottom_mm:.2} to {top_mm:.2} mm{}",
+                if self.stock_is_given { "" } else { " (what is cut, with a margin; --stock says otherwise)" }
+            ),
+        );
+        line(
+            "map",
+            format!("{} x {} cells of {:.3} x {:.3} mm", map.columns(), map.rows(), map.cell()[0], map.cell()[1]),
+        );
+        for number in &self.used {
+            if let Some(tool) = self.tools.get(*number) {
+                line("tool", format!("{number}: {}", tool.title()));
+            }
+        }
+        self.operation_lines(&mut line);
+        line(
+            "time",
+            format!(
+                "{} ({} at a feed, {} rapid, {} waiting)",
+                duration(time.total_seconds()),
+                duration(time.feed_seconds),
+                duration(time.rapid_seconds),
+                duration(time.dwell_seconds)
+            ),
+        );
+        for level in self.levels {
+            line("level", format!("z {:.3}: {:.2} mm2 cut", level.z_mm, level.area_mm2));
+        }
+        self.against_lines(&mut line);
+        for event in events.iter().take(SHOWN) {
+            line("FOUND", describe(event));
+        }
+        if events.len() > SHOWN {
+            line("", format!("and {} more (--format json lists all)", events.len() - SHOWN));
+        }
+        if events.is_empty() {
+            line("found", "nothing".to_owned());
+        }
+        if !self.written.is_empty() {
+            let names: Vec<String> = self.written.iter().map(|p| p.display().to_string()).collect();
+            line("wrote", names.join(", "));
+        }
+        text
+    }
+
+    /// One row for each operation.
+    fn operation_lines(&self, line: &mut impl FnMut(&str, String)) {
+        let operations = &self.simulation.operations;
+        if operations.is_empty() {
+            return line("cuts", "nothing".to_owned());
+        }
+        let names = operations.iter().map(|o| o.name.chars().count());
+        let width = names.max().unwrap_or(0).max("operation".len());
+        let row = |cells: [&str; 6]| {
+            let [name, lines, length, time, z, volume] = cells;
+            format!("{name:<width$}  {lines:>13}  {length:>11}  {time:>12}  {z:>9}  {volume:>11}")
+        };
+        line("", row(["operation", "lines", "cut mm", "time", "z mm", "removed mm3"]));
+        for o in operations {
+            line(
+                "",
+                row([
+                    &o.name,
+                    &format!("{}-{}", o.first_line, o.last_line),
+                    &format!("{:.1}", o.cut_length_mm),
+                    &duration(o.seconds),
+                    &o.deepest_z_mm.map_or("-".to_owned(), |z| format!("{z:.3}")),
+                    &format!("{:.1}", o.removed_mm3),
+                ]),
+            );
+        }
+    }
+
+    fn against_lines(&self, line: &mut impl FnMut(&str, String)) {
+        let Some(against) = self.against else { return };
+        let label = if self.side == Side::On { "centre" } else { "gouge" };
+        match against.gouge {
+            Some(g) if g.depth_mm > 0.0 => {
+                let verdict = if g.depth_mm > GOUGE_LIMIT { "TOO DEEP, limit" } else { "limit" };
+                let what = if self.side == Side::On { "inside of the outline by " } else { "" };
+                let depth = g.depth_mm;
+                let at = format!("({:.3}, {:.3}), line {}", g.x_mm, g.y_mm, g.line);
+                line(label, format!("{what}{depth:.4} mm with the centre at {at} ({verdict} {GOUGE_LIMIT} mm)"));
+            }
+            _ => line(label, "none".to_owned()),
+        }
+        if let Some(uncut) = &against.uncut {
+            let places = uncut.places.len();
+            line("uncut", format!("{:.3} mm2 in {places} place{}", uncut.area_mm2, if places == 1 { "" } else { "s" }));
+            for place in uncut.places.iter().take(SHOWN) {
+                let (x, y, depth) = (place.x_mm, place.y_mm, place.depth_mm);
+                let area = place.area_mm2;
+                line("", format!("{area:.3} mm2 at ({x:.3}, {y:.3}), up to {depth:.3} mm from the part"));
+            }
+            if places > SHOWN {
+                line("", format!("and {} more (--format json lists all)", places - SHOWN));
+            }
+            if !uncut.is_cut_free {
+                line("", "the cut does not go all around at the floor: the part hangs on the stock".to_owned());
+            }
+        }
+        for number in &against.tools_left_out {
+            line("", format!("tool {number} is a V bit and was not held against the part"));
+        }
+    }
+}
+
+fn describe(event: &Event) -> String {
+    let lines = match event.last_line {
+        last if last == event.line => format!("line {last}"),
+        last => format!("lines {} to {last}", event.line),
+    };
+    let (amount, unit) = (event.amount, event.kind.unit());
+    let place = format!("({:.3}, {:.3}, {:.3})", event.x_mm, event.y_mm, event.z_mm);
+    format!("{lines}: {}, {amount:.3} {unit} at {place}, tool {}", event.kind.words(), event.tool)
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds.round() {
+        _ if seconds < 59.95 => format!("{seconds:.1} s"),
+        s => format!("{:.0} min {:.0} s", (s / 60.0).floor(), s % 60.0),
+    }
+}
