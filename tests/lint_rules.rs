@@ -1,6 +1,7 @@
 //! For every rule a program that breaks it, and the same program mended.
 
 use std::collections::BTreeSet;
+use std::process::Command;
 
 use clopen::gcode::{Dialect, LintOptions, RULES, RuleInfo, lint};
 
@@ -31,7 +32,7 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("tool-change", "marlin", MARLIN, "M3", "M6\nM3"),
     ("several-codes", "marlin", MARLIN, "G21\nG90", "G21 G90"),
     ("motion-word-missing", "marlin", MARLIN, "G1 X5", "X5"),
-    ("not-followed", "linuxcnc", CUT, "G1 X5", "G41 D1\nG1 X5"),
+    ("not-followed", "linuxcnc", CUT, "G1 X5", "G81 X5 Z-2 R1\nG80\nG1 X5"),
     ("shifted-origin", "grbl", CUT, "G0 Z5\nM3", "G92 X0 Y0\nG0 Z5\nM3"),
     ("homing", "grbl", CUT, "G0 Z5\nM5", "G0 Z5\nG28\nM5"),
     ("duplicate-word", "grbl", CUT, "X5", "X5 X6"),
@@ -165,4 +166,35 @@ fn findings_name_their_source() {
     assert_eq!(source("grbl", &CUT.replace(" F100", "")), ["grbl: error 22"]);
     assert_eq!(source("linuxcnc", &CUT.replace(" F100", "")), ["linuxcnc: refused"]);
     assert_eq!(source("grbl", &CUT.replace("G4 P2\n", "")), ["grbl 1373, gnea/grbl 701 730, pcb2gcode 85"]);
+}
+
+/// LinuxCNC's own interpreter refuses just those of all these programs that its dialect says it does.
+#[test]
+fn linuxcnc_agrees_on_every_case() {
+    if Command::new("rs274").arg("-h").output().is_err() {
+        println!("skipped: rs274 (Debian package linuxcnc-uspace) is absent");
+        return;
+    }
+    let here = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    file("tool.tbl", "T1 P1 D3 Z0 ;\nT2 P2 D2.5 Z0 ;\n");
+    let dialect = Dialect::named("linuxcnc").unwrap();
+    let mut disagreements = Vec::new();
+    for (rule, _, good, what, by) in CASES {
+        let bad = good.replacen(what, by, 1);
+        file("program.ngc", &bad);
+        file("empty.var", "");
+        let output = Command::new("rs274")
+            .args(["-t", "tool.tbl", "-v", "empty.var", "-g", "program.ngc", "out.canon"])
+            .current_dir(here.path())
+            .output()
+            .unwrap();
+        let findings = lint(&bad, &LintOptions { dialect, stock_top: 0.0 });
+        let refused: Vec<_> = findings.iter().filter(|f| dialect.refuses.contains_key(&f.rule)).collect();
+        if output.status.success() != refused.is_empty() {
+            let words = String::from_utf8_lossy(&output.stderr).into_owned();
+            disagreements.push(format!("{rule} ({what:?} to {by:?}): LinuxCNC says {words:?}, we say {refused:?}"));
+        }
+    }
+    assert!(disagreements.is_empty(), "{}", disagreements.join("\n"));
 }
