@@ -1,8 +1,11 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::cam::Entry;
+use crate::cam::lay::RAMP_SLOPE;
 use crate::cam::test_shapes::{filled, p, plate, rounded_l, star, wavy};
 use crate::cam::{ARC_FIT_TOLERANCE, PathRadius, Side};
+use crate::plane::Segment;
 use crate::plane::{BoundaryIndex, Link, Ring};
 
 fn job() -> Job {

@@ -44,14 +44,14 @@ const CUT: &str = "G0 X0 Y0\nG1 Z-1 F200\nG1 X10 Z-2 F600\nG0 Z5\n";
 #[test]
 fn a_program_of_one_tool_takes_it_to_be_there() {
     let text = written(&[step("slot", 3, 9000.0)], named("grblhal"));
-    let head = "(T3 tool diameter 3 mm, flat end mill)\nG21\nG17 G90 G94\n(operation slot)\nG0 Z5\nM3 S9000\nG4 P2.5\n";
+    let head = "(tool 3 \"\" flat diameter 3 mm)\nG21\nG17 G90 G94\n(operation slot)\nG0 Z5\nM3 S9000\nG4 P2.5\n";
     assert_eq!(text, format!("{head}{CUT}M5\nM30\n"));
 }
 
 #[test]
 fn a_change_of_tool_lifts_stops_changes_and_starts_again() {
     let text = written(&[step("a", 1, 9000.0), step("b", 1, 9000.0), step("c", 2, 5000.0)], named("mach3"));
-    let head = "(T1 tool diameter 3 mm, flat end mill)\n(T2 tool diameter 3 mm, flat end mill)\nG21\nG17 G90 G94\n\
+    let head = "(tool 1 \"\" flat diameter 3 mm)\n(tool 2 \"\" flat diameter 3 mm)\nG21\nG17 G90 G94\n\
         G40 G49 G80 G91.1\n";
     let first = "(operation a)\nT1 M6\nG43 H1\nG0 Z5\nM3 S9000\nG4 P2.5\n";
     // The same tool at the same speed just goes on; the feed is still that of the cut before.
@@ -89,7 +89,7 @@ fn without_a_tool_changer_every_tool_gets_its_program() {
 #[test]
 fn a_beam_is_on_only_while_it_cuts() {
     let text = written(&[step("a", 1, 800.0), step("b", 1, 300.0)], named("grbl-laser"));
-    let head = "(T1 tool diameter 3 mm, flat end mill)\nG21\nG17 G90 G94\n(operation a)\nM5\nG0 X0 Y0\n";
+    let head = "(tool 1 \"\" flat diameter 3 mm)\nG21\nG17 G90 G94\n(operation a)\nM5\nG0 X0 Y0\n";
     let rest = "M4 S800\nG1 X10 F600\nM5\n(operation b)\nG0 X0\nM4 S300\nG1 X10\nM5\nM30\n";
     assert_eq!(text, format!("{head}{rest}"));
 }
@@ -107,7 +107,7 @@ fn a_pen_is_down_only_while_it_draws() {
 #[test]
 fn marlin_gets_one_command_a_line_a_duty_cycle_and_the_feed_of_rapids() {
     let text = written(&[step("a", 1, 15_000.0)], named("marlin"));
-    let expected = ";T1 tool diameter 3 mm, flat end mill\nG21\nG90\n;operation a\nG0 Z5 F3000\nM3 S127.5\nG4 S2.5\n\
+    let expected = ";tool 1 \"\" flat diameter 3 mm\nG21\nG90\n;operation a\nG0 Z5 F3000\nM3 S127.5\nG4 S2.5\n\
         G0 X0 Y0\nG1 Z-1 F200\nG1 X10 Z-2 F600\nG0 Z5 F3000\nM5\n";
     assert_eq!(text, expected);
     let error = write_steps(&[step("a", 1, 60_000.0)], &[], named("marlin"), MM).unwrap_err();
@@ -140,6 +140,6 @@ fn the_head_tells_the_diameter_and_not_the_number() {
     cone.tool.shape = ToolShape::Cone { angle: std::f64::consts::FRAC_PI_3, tip_diameter: 0.2 };
     cone.tool.name = "V bit (60)".into();
     let text = written(&[cone], &GRBL);
-    assert!(text.starts_with("(T7 tool diameter 3 mm, cone of 60.0 degrees, tip 0.2000 mm, V bit [60])\n"), "{text}");
+    assert!(text.starts_with("(tool 7 \"V bit [60]\" cone angle 60 deg tip 0.2 mm diameter 3 mm)\n"), "{text}");
     assert_eq!(crate::gcode::read(&text).unwrap().tool_diameter(), Some(3.0));
 }

@@ -1,7 +1,7 @@
 //! Steps of several tools as one program, or as one for each tool.
 
 use super::{WriteError, WriteOptions, Writer};
-use crate::cam::{OPERATION_COMMENT, Step, Tool, ToolShape, Toolpath};
+use crate::cam::{OPERATION_COMMENT, Step, Tool, Toolpath};
 use crate::gcode::comment::comment_lines;
 use crate::gcode::{Dialect, Units};
 
@@ -112,7 +112,7 @@ fn compose(parts: &[Part], header: &[String], dialect: &Dialect, options: WriteO
         return Err(WriteError::NoToolChange { dialect: dialect.name.clone(), count: tools.len() });
     }
     let mut writer = Writer::new(dialect, options);
-    for text in header.iter().cloned().chain(tools.iter().map(|t| describe(t))) {
+    for text in header.iter().cloned().chain(tools.iter().map(|t| t.comment())) {
         writer.comment(&text);
     }
     writer.line(if options.units == Units::Millimetres { "G21" } else { "G20" });
@@ -176,21 +176,4 @@ impl Writer<'_> {
         self.rapid_z(toolpath.settings.safe_height, toolpath.contour_count)?;
         self.stop_spindle()
     }
-}
-
-/// What the head of a program says of a tool. The number stands behind a T: a reader that looks for the diameter must not
-/// find the number.
-fn describe(tool: &Tool) -> String {
-    let shape = match tool.shape {
-        ToolShape::Flat if tool.is_drill => "drill".to_owned(),
-        ToolShape::Flat => "flat end mill".to_owned(),
-        ToolShape::Ball => "ball end mill".to_owned(),
-        ToolShape::Cone { angle, tip_diameter } => {
-            let kind = if tool.is_drill { "drill" } else { "cone" };
-            let tip = if tip_diameter > 0.0 { format!(", tip {tip_diameter:.4} mm") } else { String::new() };
-            format!("{kind} of {:.1} degrees{tip}", angle.to_degrees())
-        }
-    };
-    let name = if tool.name.is_empty() { String::new() } else { format!(", {}", tool.name) };
-    format!("T{} tool diameter {} mm, {shape}{name}", tool.number, crate::units::Brief(tool.diameter))
 }
