@@ -13,6 +13,9 @@ use crate::plane::Point;
 /// Halvings of a stretch of boundary in the search for a branch: as many as a number has digits.
 const HALVINGS: usize = 60;
 
+/// Relative difference up to which two disks are the same one, and what they touch is told apart by direction.
+const SAME_RADIUS: f64 = 1e-9;
+
 /// An item of a part's boundary.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Item {
@@ -65,19 +68,29 @@ impl Cutter<'_> {
     /// The first thing that the growing disk at `foot` touches in `items`, but for those that `skip` names; `None` where
     /// nothing stops it. `limit` is what its own piece allows.
     fn grow(&self, items: &[Item], foot: &Foot, limit: f64, skip: impl Fn(usize) -> bool) -> Option<Disk> {
-        let mut best = (limit, None);
+        let (mut least, mut best) = (limit, None);
+        // Its own arc is touched along the normal.
+        let mut best_slant = if limit.is_finite() { 0.0 } else { f64::INFINITY };
         for (k, item) in items.iter().enumerate() {
             let Item::Piece(piece) = item else { continue };
             if skip(k) {
                 continue;
             }
-            if let Some(Touch { radius, param }) = self.site(piece).touch(piece.from, piece.to, foot, self.tiny)
-                && radius < best.0
-            {
-                best = (radius, Some((k, param)));
+            let Some(Touch { radius, param }) = self.site(piece).touch(piece.from, piece.to, foot, self.tiny) else {
+                continue;
+            };
+            if radius > least * (1.0 + SAME_RADIUS) {
+                continue;
             }
+            // A disk at a vertex touches the ends of links too, but not along their normals.
+            let there = self.site(piece).at(param);
+            let slant = (there.center(radius) - foot.center(radius)).norm();
+            if radius < least * (1.0 - SAME_RADIUS) || slant < best_slant {
+                (best, best_slant) = (Some((k, param)), slant);
+            }
+            least = least.min(radius);
         }
-        let (radius, contact) = best;
+        let (radius, contact) = (least, best);
         radius.is_finite().then(|| Disk { center: foot.center(radius), radius, contact })
     }
 

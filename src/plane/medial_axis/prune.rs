@@ -62,7 +62,10 @@ impl Pruner {
         for (a, b, inner) in graph.edges {
             let (from, to) = (ends[a], ends[b]);
             let length: f64 = (nodes[from].0.point - nodes[to].0.point).norm();
-            if from == to && (inner.is_empty() || length <= tiny && inner.iter().all(|i| (i.point - nodes[from].0.point).norm() <= tiny)) {
+            if from == to
+                && (inner.is_empty()
+                    || length <= tiny && inner.iter().all(|i| (i.point - nodes[from].0.point).norm() <= tiny))
+            {
                 continue;
             }
             let all = [nodes[from].0].into_iter().chain(inner).chain([nodes[to].0]).collect();
@@ -129,7 +132,9 @@ impl Pruner {
     fn drop_covered(&mut self, tolerance: f64) -> bool {
         let mut dropped = false;
         for k in 0..self.nodes.len() {
-            let (true, NodeKind::Inner, [path]) = (self.is_there[k], self.nodes[k].1, &self.at[k][..]) else { continue };
+            let (true, NodeKind::Inner, [path]) = (self.is_there[k], self.nodes[k].1, &self.at[k][..]) else {
+                continue;
+            };
             let path = *path;
             let Path { ends, nodes, .. } = &self.paths[path];
             let root = if ends[0] == k { ends[1] } else { ends[0] };
@@ -158,10 +163,11 @@ impl Pruner {
                 nodes.push(node.0);
             }
         }
-        let edges = self.paths.into_iter().filter(|p| p.is_there).map(|p| AxisEdge {
-            ends: p.ends.map(|e| number[e]),
-            nodes: straightened(p.nodes, tiny),
-        });
+        let edges = self
+            .paths
+            .into_iter()
+            .filter(|p| p.is_there)
+            .map(|p| AxisEdge { ends: p.ends.map(|e| number[e]), nodes: straightened(p.nodes, tiny) });
         MedialAxis { edges: edges.collect(), nodes }
     }
 }

@@ -40,10 +40,22 @@ pub(super) struct Touch {
 /// An element of the boundary, with a parameter: length along a line, the angle turned along an arc or about a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Site {
-    Line { start: Point, direction: Vector, length: f64 },
-    Arc { arc: Arc, spoke: Vector, sweep: f64 },
+    Line {
+        start: Point,
+        direction: Vector,
+        length: f64,
+    },
+    Arc {
+        arc: Arc,
+        spoke: Vector,
+        sweep: f64,
+    },
     /// A concave vertex: disks touch it in all the directions between the normals of the two links.
-    Vertex { at: Point, first_normal: Vector, turn: f64 },
+    Vertex {
+        at: Point,
+        first_normal: Vector,
+        turn: f64,
+    },
 }
 
 /// A part of a site.
