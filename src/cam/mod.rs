@@ -11,6 +11,7 @@
 //! Refused: regions with concave features tighter than the tool, jobs with values that make no sense.
 
 mod certificate;
+mod chamfer;
 mod contour;
 mod entry;
 mod fit;
@@ -32,9 +33,11 @@ pub(crate) mod test_shapes;
 mod time;
 mod tool;
 mod toolpath;
+mod v_carve;
 mod walk;
 
 pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, certify, statistics};
+pub use chamfer::{Chamfer, ChamferError, chamfer_depth};
 pub use contour::Contour;
 pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};
 pub use gouge::{Gouge, deepest_cut};
@@ -55,3 +58,4 @@ pub use solid::Remainder;
 pub use time::{Machine, ProgramTime, estimate};
 pub use tool::{Tool, ToolShape};
 pub use toolpath::{Move, MoveKind, Settings, Step, Toolpath};
+pub use v_carve::{CARVING_TOLERANCE, VCarve, VCarveError, VCarving, v_carve};
