@@ -8,12 +8,13 @@
 use super::outline::Outline;
 use super::site::{Foot, Piece, Site, Touch};
 use super::{AxisNode, NodeKind};
-use crate::plane::Point;
+use crate::plane::{Point, Vector};
 
 /// Halvings of a stretch of boundary in the search for a branch: as many as a number has digits.
 const HALVINGS: usize = 60;
 
-/// Relative difference up to which two disks are the same one, and what they touch is told apart by direction.
+/// Relative difference up to which two disks are the same one, and two places that they touch; what is touched there is
+/// told by direction.
 const SAME_RADIUS: f64 = 1e-9;
 
 /// An item of a part's boundary.
@@ -65,32 +66,42 @@ impl Cutter<'_> {
         &self.outline.sites[piece.site]
     }
 
+    fn foot_of(&self, item: &Item, param: f64) -> Foot {
+        match item {
+            Item::Piece(piece) => self.site(piece).at(param),
+            Item::Gate(node) => Foot { point: self.graph.nodes[*node].0.point, normal: Vector::zeros() },
+        }
+    }
+
     /// The first thing that the growing disk at `foot` touches in `items`, but for those that `skip` names; `None` where
     /// nothing stops it. `limit` is what its own piece allows.
     fn grow(&self, items: &[Item], foot: &Foot, limit: f64, skip: impl Fn(usize) -> bool) -> Option<Disk> {
-        let (mut least, mut best) = (limit, None);
-        // Its own arc is touched along the normal.
-        let mut best_slant = if limit.is_finite() { 0.0 } else { f64::INFINITY };
+        let mut radius = limit;
+        let mut near: Vec<(usize, Touch)> = Vec::new();
         for (k, item) in items.iter().enumerate() {
             let Item::Piece(piece) = item else { continue };
             if skip(k) {
                 continue;
             }
-            let Some(Touch { radius, param }) = self.site(piece).touch(piece.from, piece.to, foot, self.tiny) else {
-                continue;
-            };
-            if radius > least * (1.0 + SAME_RADIUS) {
-                continue;
+            let Some(touch) = self.site(piece).touch(piece.from, piece.to, foot, self.tiny) else { continue };
+            if touch.radius < radius * (1.0 - SAME_RADIUS) {
+                near.clear();
             }
-            // A disk at a vertex touches the ends of links too, but not along their normals.
-            let there = self.site(piece).at(param);
-            let slant = (there.center(radius) - foot.center(radius)).norm();
-            if radius < least * (1.0 - SAME_RADIUS) || slant < best_slant {
-                (best, best_slant) = (Some((k, param)), slant);
+            if touch.radius <= radius * (1.0 + SAME_RADIUS) {
+                near.push((k, touch));
+                radius = radius.min(touch.radius);
             }
-            least = least.min(radius);
         }
-        let (radius, contact) = (least, best);
+        // A disk at a vertex touches the ends of links too, but not along their normals.
+        let feet = near.iter().map(|(k, touch)| (*k, touch, self.foot_of(&items[*k], touch.param)));
+        let first = feet.clone().min_by(|a, b| a.1.radius.total_cmp(&b.1.radius)).filter(|f| f.1.radius < limit);
+        let contact = first.and_then(|(_, _, Foot { point: place, .. })| {
+            let center = foot.center(radius);
+            let same_place = feet.filter(|(.., f)| (f.point - place).norm() <= SAME_RADIUS * radius);
+            let slant = |f: &Foot| (f.center(radius) - center).norm();
+            let straightest = same_place.min_by(|a, b| slant(&a.2).total_cmp(&slant(&b.2)));
+            straightest.map(|(k, touch, _)| (k, touch.param))
+        });
         radius.is_finite().then(|| Disk { center: foot.center(radius), radius, contact })
     }
 
