@@ -2,7 +2,11 @@
 
 mod shapes;
 
-use clopen::plane::{AxisNode, BoundaryIndex, Joint, MedialAxis, Point, Region, Vector, medial_axis, turn_angle};
+use clopen::plane::{
+    AxisNode, BoundaryIndex, Joint, Link, MedialAxis, Point, Region, Segment, Vector, medial_axis, turn_angle,
+};
+use clopen::rolling::{Topology, close, open};
+use clopen::units::Radius;
 
 /// How far a node may be from equidistant, relative to the size of the shape: branch points between elements that are
 /// almost parallel are the least certain.
@@ -50,7 +54,7 @@ fn is_maximal(node: &AxisNode, region: &Region, slack: f64) -> bool {
     let mut first: Option<Vector> = None;
     region.segments().any(|s| {
         let near = s.nearest(node.point);
-        let at_center = |s: &clopen::plane::Segment| matches!(s.link, clopen::plane::Link::Arc(a) if (a.center - node.point).norm() <= slack);
+        let at_center = |s: &Segment| matches!(s.link, Link::Arc(a) if (a.center - node.point).norm() <= slack);
         if (near.distance - node.clearance).abs() > slack {
             return false;
         }
@@ -129,6 +133,22 @@ fn shapes_turned_scaled_and_far_away_have_an_axis_too() {
         let placed = shapes::placed(&region, 0.3 + number as f64, 20.0, Vector::new(3000.0, -1500.0));
         assert_is_axis(&format!("{name}, placed"), &placed, 1e-3);
     }
+}
+
+#[test]
+fn shapes_with_round_corners_have_an_axis() {
+    let mut arcs = 0;
+    for number in 0..80 {
+        let (name, region) = shapes::mixed(number);
+        let radius = Radius::new(0.4).unwrap();
+        let closed = close(&region, radius, Topology::Merge).region;
+        let opened = open(&region, radius, Topology::Merge).region;
+        for (name, round) in [(format!("{name}, closed"), closed), (format!("{name}, opened"), opened)] {
+            arcs += round.segments().filter(|s| s.link != Link::Line).count();
+            assert_is_axis(&name, &round, 1e-3);
+        }
+    }
+    assert!(arcs > 500, "{arcs}");
 }
 
 #[test]
