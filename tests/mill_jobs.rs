@@ -54,7 +54,8 @@ fn every_sample_job_does_all_that_it_asks_for_and_no_rapid_meets_material() {
         for program in programs(folder.path()) {
             let file = program.file_name().unwrap().to_string_lossy().into_owned();
             let output = clopen(folder.path(), &["simulate", &file, "--spoil", "1", "--format", "json"]);
-            let simulated: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", said(&output)));
+            let simulated: Value =
+                serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", said(&output)));
             assert_eq!(output.status.code(), Some(0), "{name} {file}: {simulated}");
         }
     }

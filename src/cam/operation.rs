@@ -13,12 +13,13 @@ mod raster;
 mod relief;
 mod rest;
 mod spurs;
+mod v_carve;
 
 use super::lay::Laying;
 use super::lead::Room;
 use super::{
-    Contour, Corners, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation, OperationKind,
-    Remainder, Settings, Setup, Side, Tool, Toolpath, fit_arcs, offset,
+    ChamferError, Contour, Corners, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation,
+    OperationKind, Remainder, Settings, Setup, Side, Tool, Toolpath, fit_arcs, offset,
 };
 use crate::plane::{Point, Region, Ring, Turn, Vector};
 use crate::rolling::{self, Topology};
@@ -125,14 +126,9 @@ pub enum OperationError {
         diameter: f64,
     },
     /// A cone that cannot make the chamfer.
-    #[error("a chamfer of {width} mm needs a cone with a wider side: this one reaches {reach:.3} mm")]
-    ChamferTooWide {
-        /// What was asked for.
-        width: f64,
-        /// What the tool can do.
-        reach: f64,
-    },
-    /// A cone that does not fit beside the outline.
+    #[error(transparent)]
+    Chamfer(#[from] ChamferError),
+    /// Neither stock nor shapes have a size.
     #[error("facing needs the width and height of the stock, or shapes")]
     NothingToFace,
     /// Carving failed.
@@ -163,7 +159,7 @@ pub fn plan_operation(setup: &Setup, operation: &Operation, geometry: &Geometry)
         }
         OperationKind::Drill { peck } => drill::plan(&work, geometry, *peck),
         OperationKind::Engrave => engrave::plan(&work, geometry),
-        OperationKind::VCarve { .. } => Err(OperationError::Carving("carving is not there yet".into())),
+        OperationKind::VCarve { max_depth } => v_carve::plan(&work, geometry, *max_depth),
         OperationKind::Facing { stepover } => facing::plan(&work, geometry, *stepover),
         OperationKind::Chamfer { side, width } => chamfer::plan(&work, geometry, *side, *width),
     }

@@ -184,6 +184,7 @@ fn words(done: &Done, setup: &Setup) -> Words {
             Notice::CornerSkipped(p) => {
                 notes.push(format!("the tool does not come near the corner at {}: it stays round", at(p)))
             }
+            Notice::BottomCleared(step) => notes.push(format!("where the letters are wider than the tool reaches, the tip clears the bottom in paths {step:.2} mm apart")),
             Notice::TabsDropped(p, count) => failures.push(format!(
                 "{count} tabs find no place on the outline at {}: ask for fewer or narrower ones",
                 at(p)
