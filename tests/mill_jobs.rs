@@ -79,7 +79,7 @@ fn a_machine_that_changes_tools_gets_one_program_and_flags_beat_the_file() {
     let found = programs(folder.path());
     assert_eq!(found.len(), 1);
     let text = fs::read_to_string(&found[0]).unwrap();
-    for words in ["T3 M6", "T1 M6", "G43 H1", "(operation cut out)"] {
+    for words in ["T3 M6", "T1 M6", "\nG43\n", "(operation cut out)"] {
         assert!(text.contains(words), "{words}");
     }
 }

@@ -89,7 +89,7 @@ fn leads_come_and_go_in_the_waste_and_are_left_out_with_a_word_where_there_is_no
     }
     // A hole hardly wider than the tool.
     let tight = r#"<path fill-rule="evenodd" d="M10 10H70V50H10ZM30 30A1.6 1.6 0 1 0 26.8 30A1.6 1.6 0 1 0 30 30Z"/>"#;
-    let (planned, _) = run(lead, &geometry(tight));
+    let (planned, _) = run(&format!("{lead}path-radius = 0\n"), &geometry(tight));
     assert!(
         planned
             .notices

@@ -142,6 +142,10 @@ pub enum OperationError {
 /// Where there is nothing to do, or the tool is too large.
 pub fn plan_operation(setup: &Setup, operation: &Operation, geometry: &Geometry) -> Result<Planned, OperationError> {
     let work = Work::new(setup, operation);
+    let goes_around = matches!(operation.kind, OperationKind::Profile { .. } | OperationKind::Pocket { .. });
+    if goes_around && work.tool.diameter > geometry.area.bounds().diagonal() && !geometry.area.is_empty() {
+        return Err(OperationError::TooLarge { diameter: work.tool.diameter });
+    }
     match &operation.kind {
         OperationKind::Profile { side, rest_of: Some(larger), .. } => rest::plan(
             &work,

@@ -248,7 +248,10 @@ impl MillReport<'_> {
             return line("lost", "nothing".to_owned());
         }
         for (i, feature) in self.lost.iter().take(PLACES_SHOWN).enumerate() {
-            line(if i == 0 { "LOST" } else { "" }, describe(feature, self.job));
+            line(
+                if i == 0 { "LOST" } else { "" },
+                describe(feature, self.job.tool_diameter, self.job.path_radius_mm()),
+            );
         }
         more(line, self.lost.len());
         let fits = |f: &LostFeature| f.width() >= self.job.tool_diameter;
@@ -283,16 +286,17 @@ fn minutes(seconds: f64) -> String {
 /// Sizes of features are known to this part of themselves.
 const SIZE_ACCURACY: f64 = 0.01;
 
-fn describe(feature: &LostFeature, job: &Job) -> String {
+/// What a feature is, and why the tool cannot make it.
+pub(super) fn describe(feature: &LostFeature, tool_diameter: f64, path_radius: f64) -> String {
     let at = |p: &Place| format!("at ({:.3}, {:.3})", p.x, p.y);
     let why = |width: f64| {
-        if (width - job.tool_diameter).abs() < SIZE_ACCURACY * job.tool_diameter {
-            format!("that is the tool of {} mm, which needs more room to move", job.tool_diameter)
-        } else if width < job.tool_diameter {
-            format!("the tool of {} mm does not fit", job.tool_diameter)
+        if (width - tool_diameter).abs() < SIZE_ACCURACY * tool_diameter {
+            format!("that is the tool of {tool_diameter} mm, which needs more room to move")
+        } else if width < tool_diameter {
+            format!("the tool of {tool_diameter} mm does not fit")
         } else {
-            let room = 0.5 * (width - job.tool_diameter);
-            format!("the tool fits, but not with a path radius of {:.3} mm: at most {room:.3} mm", job.path_radius_mm())
+            let room = 0.5 * (width - tool_diameter);
+            format!("the tool fits, but not with a path radius of {path_radius:.3} mm: at most {room:.3} mm")
         }
     };
     match feature {

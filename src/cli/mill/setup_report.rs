@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::setup::{Done, Written, at};
 use crate::cam::{Notice, OperationKind, Setup, Side, estimate};
-use crate::cli::report::{GOUGE_LIMIT, Verdict};
+use crate::cli::report::{GOUGE_LIMIT, Verdict, describe};
 use crate::gcode::Severity;
 
 /// All that is to be told of a job. Places are in the machine's coordinates.
@@ -18,6 +18,7 @@ pub(super) struct SetupReport<'a> {
     pub(super) setup: &'a Setup,
     pub(super) dialect: &'a str,
     pub(super) done: &'a [Done<'a>],
+    pub(super) accept_losses: bool,
     pub(super) written: &'a [Written],
     pub(super) unsafe_travel: &'a [String],
     pub(super) files: &'a [PathBuf],
@@ -32,7 +33,7 @@ struct Words {
 impl SetupReport<'_> {
     pub(super) fn verdict(&self) -> Verdict {
         let refused = self.written.iter().flat_map(|w| &w.findings).any(|f| f.severity == Severity::Error);
-        let failed = self.done.iter().any(|d| !words(d, self.setup).failures.is_empty());
+        let failed = self.done.iter().any(|d| !words(d, self.setup, self.accept_losses).failures.is_empty());
         if failed || refused || !self.unsafe_travel.is_empty() { Verdict::Failed } else { Verdict::Good }
     }
 
@@ -47,7 +48,8 @@ impl SetupReport<'_> {
         for done in self.done {
             let check = &done.check;
             let gouge = check.gouge.map_or("-".to_owned(), |g| format!("{:.4}", g.depth_mm.max(0.0)));
-            let verdict = if words(done, self.setup).failures.is_empty() { "good" } else { "FAILED" };
+            let verdict =
+                if words(done, self.setup, self.accept_losses).failures.is_empty() { "good" } else { "FAILED" };
             let label: String = check.label.chars().take(23).collect();
             let _ = writeln!(
                 text,
@@ -63,7 +65,7 @@ impl SetupReport<'_> {
             self.written.iter().map(|w| estimate(&w.program, &self.setup.rig.limits).total_seconds()).sum();
         let _ = writeln!(text, "{:<24}{}", "time", minutes(seconds));
         for done in self.done {
-            let words = words(done, self.setup);
+            let words = words(done, self.setup, self.accept_losses);
             for failure in words.failures {
                 let _ = writeln!(text, "FAILED  {}: {failure}", done.check.label);
             }
@@ -94,7 +96,7 @@ impl SetupReport<'_> {
             .done
             .iter()
             .map(|done| {
-                let words = words(done, self.setup);
+                let words = words(done, self.setup, self.accept_losses);
                 json!({
                     "check": done.check,
                     "line": done.operation.line,
@@ -133,7 +135,7 @@ fn minutes(seconds: f64) -> String {
     if whole < 60 { format!("{seconds:.1} s") } else { format!("{} min {:02} s", whole / 60, whole % 60) }
 }
 
-fn words(done: &Done, setup: &Setup) -> Words {
+fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
     let (check, planned) = (&done.check, &done.planned);
     let mut failures = Vec::new();
     let mut notes = Vec::new();
@@ -147,6 +149,10 @@ fn words(done: &Done, setup: &Setup) -> Words {
     }
     if check.passes[0] > check.passes[1] {
         failures.push(format!("{} passes were asked for, and the program has {}", check.passes[0], check.passes[1]));
+    }
+    for feature in &done.lost {
+        let words = describe(feature, setup.tool_of(done.operation).diameter, done.path_radius);
+        if accept_losses { &mut notes } else { &mut failures }.push(words);
     }
     for island in &check.islands {
         failures
