@@ -118,7 +118,8 @@ fn run(number: u64, is_loud: bool) -> Result<bool, String> {
 
 /// Runs the program on a block of stock.
 fn rapids(setup: &Setup, program: &clopen::cam::Program, text: &str) -> Result<bool, String> {
-    let tools = ToolTable::gather(&setup.tools, program);
+    let used = setup.tool_of(&setup.operations[0]).clone();
+    let tools = ToolTable::gather(&[used], program);
     let Some(cuts) = Stock::of_cuts(program, &tools, 0.0) else { return Ok(true) };
     let stock = Stock { bottom_mm: -6.0, ..cuts };
     let outline = stock.outline();
