@@ -128,6 +128,17 @@ pub enum OperationError {
     /// A cone that cannot make the chamfer.
     #[error(transparent)]
     Chamfer(#[from] ChamferError),
+    /// A cone that would go through the stock.
+    #[error(
+        "the tip would go {depth:.3} mm deep, and the stock is {thickness} mm thick: take a cone with a wider angle, or less width \
+         or max-depth"
+    )]
+    ThroughStock {
+        /// How deep it would go.
+        depth: f64,
+        /// How thick the stock is.
+        thickness: f64,
+    },
     /// Neither stock nor shapes have a size.
     #[error("facing needs the width and height of the stock, or shapes")]
     NothingToFace,
@@ -234,6 +245,16 @@ impl<'a> Work<'a> {
 
     fn part_side(&self) -> Turn {
         if self.backwards() { Turn::Right } else { Turn::Left }
+    }
+
+    /// Refuses cones whose tip would go through the stock.
+    fn stays_in_stock(&self, depth: f64) -> Result<(), OperationError> {
+        match self.setup.stock.thickness {
+            Some(thickness) if self.cutting.start_depth + depth > thickness => {
+                Err(OperationError::ThroughStock { depth: self.cutting.start_depth + depth, thickness })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The toolpath of `moves`, which begin with a rapid to the safe height.

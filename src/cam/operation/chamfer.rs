@@ -9,6 +9,7 @@ const OVERHANG: f64 = 0.1;
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, width: f64) -> Result<Planned, OperationError> {
     let cut = chamfer_depth(work.tool, width, overhang(work.tool, width))?;
+    work.stays_in_stock(cut.depth)?;
     // The profile of a tool as wide as the cone is at the lower edge.
     let tool = Tool { diameter: 2.0 * cut.offset, ..work.tool.clone() };
     let cutting = Cutting { depth: work.cutting.start_depth + cut.depth, ..work.cutting.clone() };

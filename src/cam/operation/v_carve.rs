@@ -20,6 +20,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, max_depth: Option<f64>) -> 
     let spec =
         VCarve { tool: work.tool.clone(), stock_top: work.top, max_depth, depth_per_pass: work.cutting.depth_per_pass };
     let carving = v_carve(&geometry.area, &spec).map_err(|e| OperationError::Carving(e.to_string()))?;
+    work.stays_in_stock(carving.deepest)?;
     let mut moves = work.first_moves();
     moves.extend(carving.moves(work.top, work.setup.rig.safe_height));
     let mut count = carving.chains.len();
