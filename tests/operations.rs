@@ -36,9 +36,15 @@ fn run(operations: &str, geometry: &Geometry) -> (Planned, Program) {
     let setup = setup(operations);
     let planned = plan_operation(&setup, &setup.operations[0], geometry).unwrap_or_else(|e| panic!("{e}"));
     let program = read_back(&planned);
-    if let Some(keep) = &planned.keep {
+    let carves = matches!(setup.operations[0].kind, cam::OperationKind::VCarve { .. });
+    if let Some(keep) = planned.keep.as_ref().filter(|_| !carves) {
         let gouge = deepest_cut(&program, &keep.part, keep.remainder, keep.distance, 0.0);
         assert!(gouge.is_none_or(|g| g.depth_mm <= 0.002), "{gouge:?}");
+    }
+    if let Some(keep) = planned.keep.as_ref().filter(|_| carves) {
+        let tool = setup.tool_of(&setup.operations[0]);
+        let gouge = cam::deepest_carving(&program, &keep.part, tool, 0.0);
+        assert!(gouge.is_some_and(|g| g.depth_mm <= 0.002), "{gouge:?}");
     }
     (planned, program)
 }

@@ -13,6 +13,7 @@
 mod against;
 mod certificate;
 mod chamfer;
+mod cone_gouge;
 mod contour;
 mod entry;
 mod event;
@@ -58,6 +59,7 @@ mod walk;
 pub use against::{Against, AgainstOptions, against};
 pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, certify, statistics};
 pub use chamfer::{Chamfer, ChamferError, chamfer_depth};
+pub use cone_gouge::deepest_carving;
 pub use contour::Contour;
 pub use event::{Event, EventKind};
 pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};

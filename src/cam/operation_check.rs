@@ -5,6 +5,7 @@
 
 use super::Side;
 use super::certificate::{ProgramStatistics, statistics};
+use super::cone_gouge::deepest_carving;
 use super::gouge::{Gouge, deepest_cut};
 use super::islands::{Island, islands};
 use super::motion::{Motion, Program};
@@ -106,8 +107,16 @@ pub fn check_operation(
         label: operation.label.clone(),
         tool: tool.number,
         seconds: motion_seconds(program, machine).iter().sum(),
-        gouge: against(&|k| deepest_cut(program, &k.part, k.remainder, k.distance, stock_top)),
-        overcut: against(&|k| deepest_cut(program, &k.kept, k.remainder, k.distance, stock_top)),
+        gouge: match operation.kind {
+            OperationKind::VCarve { .. } => {
+                against(&|k| deepest_carving(program, &k.part, tool, stock_top - cutting.start_depth))
+            }
+            _ => against(&|k| deepest_cut(program, &k.part, k.remainder, k.distance, stock_top)),
+        },
+        overcut: match operation.kind {
+            OperationKind::VCarve { .. } => None,
+            _ => against(&|k| deepest_cut(program, &k.kept, k.remainder, k.distance, stock_top)),
+        },
         uncut,
         islands,
         tabs: [planned.tabs.len(), planned.tabs.iter().filter(|tab| stands(program, tab)).count()],

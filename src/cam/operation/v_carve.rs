@@ -1,10 +1,10 @@
 //! Areas carved by a cone, as deep as they are wide.
 
-use super::{Geometry, Level, OperationError, Planned, Work};
+use super::{Geometry, Keep, Level, OperationError, Planned, Work};
 use crate::cam::lay::{Notice, Pen};
 use crate::cam::order::order;
 use crate::cam::tabs::TabLine;
-use crate::cam::{Contour, Entry, MoveKind, ToolShape, VCarve, v_carve};
+use crate::cam::{Contour, Entry, MoveKind, Remainder, ToolShape, VCarve, v_carve};
 use crate::plane::{Point, Region};
 
 /// Distance between the paths over a flat bottom, in tool diameters: ridges between them are lower than this by far.
@@ -46,7 +46,13 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, max_depth: Option<f64>) -> 
     }
     Ok(Planned {
         toolpath: work.toolpath(moves, count),
-        keep: None,
+        keep: Some(Keep {
+            part: geometry.area.clone(),
+            kept: geometry.area.clone(),
+            remainder: Remainder::Outside,
+            distance: 0.0,
+            floor: work.top - carving.deepest,
+        }),
         notices,
         tabs: Vec::new(),
         holes: Vec::new(),
