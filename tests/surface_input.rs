@@ -102,8 +102,8 @@ fn what_lies_on_each_other_is_told_before_the_work() {
     for (name, by) in [("same", 0.0), ("beside", side), ("over", 0.5 * side)] {
         put(folder.path(), "two.obj", &both(&cube(), &cube(), Vector::new(by, 0.0, 0.0)));
         for method in ["direct", "volume"] {
-            // A small ball, which has nothing to do.
-            let output = surface(folder.path(), &format!("close two.obj -r .1 --method {method} -o out.obj"));
+            let output =
+                surface(folder.path(), &format!("close two.obj -r 1 --edge-length .5 --method {method} -o out.obj"));
             let text = words(&output);
             let first = text.lines().next().unwrap_or_default();
             assert!(
@@ -224,7 +224,6 @@ fn what_never_ends_is_not_read_to_the_end() {
 
 #[test]
 fn thousands_of_kinds_of_elements_are_passed_over() {
-    let folder = tempfile::tempdir().unwrap();
     let ply = String::from_utf8(
         b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
           element face 1\nproperty list uchar int vertex_indices\n"
@@ -236,7 +235,6 @@ fn thousands_of_kinds_of_elements_are_passed_over() {
     assert_eq!(read(text.as_bytes(), MeshFormat::Ply).unwrap().polygon_count(), 1);
     let twice = format!("{ply}{more}element face 1\nend_header\n");
     assert!(read(twice.as_bytes(), MeshFormat::Ply).unwrap_err().to_string().contains("not there yet"));
-    drop(folder);
 }
 
 #[test]

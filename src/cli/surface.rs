@@ -5,6 +5,7 @@ mod choose;
 mod cut;
 mod digits;
 mod flow;
+mod limits;
 mod offset;
 mod pins;
 mod repairs;

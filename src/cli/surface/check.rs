@@ -7,7 +7,8 @@ use clap::Args;
 
 use super::MeshLength;
 use super::digits::{Places, count, number};
-use super::work::{keep_edge, keep_radius, keep_size, longest_edge, read_polygons};
+use super::limits::{keep_edge, keep_radius, keep_size, longest_edge};
+use super::work::read_polygons;
 use crate::check::{self, SurfacePlace, SurfaceReport};
 use crate::cli::check::{FormatArg, OperationArg};
 use crate::cli::{ExitStatus, output};

@@ -6,6 +6,7 @@ use anyhow::{Context as _, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::digits::number;
+use super::limits::{SHORTEST_EDGE, keep_edge, keep_near, keep_radius, keep_size, longest_edge};
 use super::{MethodArg, Step, WorkArgs, repairs};
 use crate::cli::input;
 use crate::io::mesh::{self as files, MeshFormat};
@@ -21,23 +22,6 @@ const EDGE: f64 = 1.0 / 6.0;
 
 /// They are no shorter than this part of the radius, however fine the mesh.
 const FINEST_EDGE: f64 = 1.0 / 30.0;
-
-/// Edges are no longer than this, in diagonals of the mesh, unless they are asked for: with a ball much larger than the mesh, whose
-/// closing is nearly the convex hull, parts of the radius would be.
-const LONGEST_EDGE: f64 = 1.0 / 40.0;
-
-/// Radii from the smallest to the largest of these, in diagonals of the mesh, make sense. Beyond the largest the closing is the
-/// convex hull but for a thousandth of the diagonal.
-const RADII: [f64; 2] = [1e-5, 100.0];
-
-/// Beyond these, in units of the mesh, products of lengths leave the range of numbers.
-const DIAGONALS: [f64; 2] = [1e-50, 1e50];
-
-/// Edges shorter than this, in diagonals, would make more triangles than a machine can hold.
-const SHORTEST_EDGE: f64 = 1e-5;
-
-/// Edges shorter than this part of the largest coordinate are lost in its rounding.
-const STEPS: f64 = 1e-12;
 
 /// So many problems are named.
 const NAMED: usize = 5;
@@ -87,52 +71,6 @@ fn read_file(path: &Path) -> Result<File> {
     let format = MeshFormat::of_path(path).unwrap_or_else(|| MeshFormat::of_bytes(&bytes));
     let polygons = files::read(&bytes, format).with_context(|| path.display().to_string())?;
     Ok(File { polygons, scalar_name: files::scalar_name(&bytes, format), left_out: files::left_out(&bytes, format) })
-}
-
-/// Refuses meshes of a size that lengths on it cannot be reckoned with.
-pub(super) fn keep_size(path: &Path, diagonal: f64) -> Result<()> {
-    if (DIAGONALS[0]..=DIAGONALS[1]).contains(&diagonal) {
-        return Ok(());
-    }
-    bail!(
-        "{}: the diagonal of its box is {diagonal:e}: give it other units, so that it is from {:e} to {:e}",
-        path.display(),
-        DIAGONALS[0],
-        DIAGONALS[1]
-    )
-}
-
-/// Refuses radii that make no sense on a mesh of this diagonal.
-pub(super) fn keep_radius(path: &Path, radius: f64, diagonal: f64) -> Result<()> {
-    if (RADII[0] * diagonal..=RADII[1] * diagonal).contains(&radius) {
-        return Ok(());
-    }
-    bail!(
-        "{}: a radius of {} on a mesh whose box has a diagonal of {}: give one from {:.3e} to {:.3e}, for example 2%",
-        path.display(),
-        number(radius),
-        number(diagonal),
-        RADII[0] * diagonal,
-        RADII[1] * diagonal
-    )
-}
-
-/// Refuses `--edge-length` where it is longer than the radius, or makes more triangles than can be held.
-pub(super) fn keep_edge(edge: f64, radius: f64, diagonal: f64) -> Result<()> {
-    let shortest = SHORTEST_EDGE * diagonal;
-    if (shortest..=radius).contains(&edge) {
-        return Ok(());
-    }
-    bail!(
-        "--edge-length {}: an edge length must be at most the radius ({}) and at least {shortest:.3e}",
-        number(edge),
-        number(radius)
-    )
-}
-
-/// The longest edges on a mesh of this diagonal, unless they are asked for.
-pub(super) fn longest_edge(diagonal: f64) -> f64 {
-    LONGEST_EDGE * diagonal
 }
 
 impl Input {
@@ -299,13 +237,7 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
     keep_edge(edge, field.smallest, diagonal)?;
     let [low, high] = input.triangles.bounds().unwrap_or([Point::origin(); 2]);
     let far = low.coords.amax().max(high.coords.amax());
-    if edge < STEPS * far {
-        bail!(
-            "{}: coordinates as large as {far:.3e} are rounded too coarsely for an edge length of {}; move the mesh nearer to the origin",
-            args.input.display(),
-            number(edge)
-        );
-    }
+    keep_near(&args.input, far, edge)?;
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
         bar.set_style(style);
