@@ -1,7 +1,7 @@
 (clopen golden program)
 (dialect plotter-servo)
 (program 3 of 3)
-(T1 tool diameter 3 mm, flat end mill)
+(tool 1 "" flat diameter 3 mm)
 G20
 G17 G90 G94
 (operation slope)

@@ -1,7 +1,7 @@
 (clopen golden program)
 (dialect portable)
 (program 2 of 3)
-(T2 tool diameter 2.5 mm, drill of 118.0 degrees)
+(tool 2 "" drill cone angle 118 deg tip 0 mm diameter 2.5 mm)
 G21
 G17 G90 G94
 (operation holes)

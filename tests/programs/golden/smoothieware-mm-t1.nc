@@ -1,7 +1,7 @@
 ;clopen golden program
 ;dialect smoothieware
 ;program 1 of 3
-;T1 tool diameter 3 mm, flat end mill
+;tool 1 "" flat diameter 3 mm
 G21
 G17 G90
 ;operation pocket
