@@ -47,7 +47,7 @@ pub struct OperationCheck {
     pub tabs: [usize; 2],
     /// Holes that were asked for, and those that the program reaches the bottom of.
     pub holes: [usize; 2],
-    /// Passes that were asked for, and levels that the program cuts; 0 asked where the depth follows from the shape.
+    /// Passes that were asked for, and those whose height the program goes down to; 0 where the depth follows from the shape.
     pub passes: [usize; 2],
 }
 
@@ -99,9 +99,14 @@ pub fn check_operation(
         _ => Vec::new(),
     };
     let cutting = &operation.cutting;
-    let asked_passes = match operation.kind {
-        OperationKind::Profile { .. } | OperationKind::Pocket { .. } => cutting.pass_heights(stock_top).len(),
-        _ => 0,
+    let heights: Vec<f64> = match operation.kind {
+        OperationKind::Profile { .. } | OperationKind::Pocket { .. } => {
+            // Above an onion skin, and through it.
+            let floor = stock_top - cutting.depth;
+            let skin = cutting.onion_skin.map_or(f64::NEG_INFINITY, |skin| floor + skin);
+            cutting.pass_heights(stock_top).into_iter().filter(|h| *h > skin || h - floor < TAB_ROUNDING).collect()
+        }
+        _ => Vec::new(),
     };
     OperationCheck {
         label: operation.label.clone(),
@@ -121,9 +126,15 @@ pub fn check_operation(
         islands,
         tabs: [planned.tabs.len(), planned.tabs.iter().filter(|tab| stands(program, tab)).count()],
         holes: [planned.holes.len(), planned.holes.iter().filter(|hole| is_open(program, hole)).count()],
-        passes: [asked_passes, statistics.passes],
+        passes: [heights.len(), heights_reached(program, &heights)],
         statistics,
     }
+}
+
+/// Of the heights that were asked for, those that the tool is brought down to at a feed.
+fn heights_reached(program: &Program, heights: &[f64]) -> usize {
+    let reached = |z: f64| program.motions.iter().any(|m| m.is_feed() && (m.to.z - z).abs() <= TAB_ROUNDING);
+    heights.iter().filter(|z| reached(**z)).count()
 }
 
 /// Whether no motion cuts into a tab, and some passes over it.

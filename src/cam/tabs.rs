@@ -2,7 +2,7 @@
 
 use super::walk::Walk;
 use super::{TabPlaces, Tabs};
-use crate::plane::{Link, Point, Segment};
+use crate::plane::{Link, Point, Segment, turn_angle};
 
 /// Length of a tab's flank in heights of the tab: its steepest place, in the middle, then has 45 degrees.
 const FLANK: f64 = 1.5;
@@ -105,13 +105,16 @@ impl TabLine {
         let line = TabLine { middles: Vec::new(), plateau, top: floor + tabs.height, height: tabs.height, length };
         placed.line = line;
         let tight = tight_stretches(walk.segments(), TIGHT * tool_diameter);
+        let spikes = spikes(walk.segments());
         for way in wanted {
             let free = |at: f64, arcs: bool| {
                 let clear = |middle: f64, other: f64| {
                     let apart = (at - middle).rem_euclid(length);
                     apart.min(length - apart) >= reach + other
                 };
+                let is_on_spike = spikes.iter().any(|&(a, b)| overlaps(at, plateau, a, b, length));
                 clear(0.0, seam)
+                    && !is_on_spike
                     && placed.line.middles.iter().all(|&m| clear(m, reach))
                     && (arcs || !tight.iter().any(|&(a, b)| overlaps(at, plateau, a, b, length)))
             };
@@ -159,6 +162,21 @@ fn tight_stretches(segments: &[Segment], radius: f64) -> Vec<(f64, f64)> {
     }
     stretches
 }
+
+/// The stretches out to corners and back: the tool passes them twice, and a tab on one way would be cut on the other.
+fn spikes(segments: &[Segment]) -> Vec<(f64, f64)> {
+    let n = segments.len();
+    let mut ways = vec![0.0];
+    for segment in segments {
+        ways.push(ways[ways.len() - 1] + segment.length());
+    }
+    let turns_back =
+        |k: usize| turn_angle(segments[k].end_tangent(), segments[k + 1].start_tangent()).abs() > ABOUT_TURN;
+    (0..n.saturating_sub(1)).filter(|&k| turns_back(k)).map(|k| (ways[k], ways[k + 2])).collect()
+}
+
+/// Turns of more than this, in radians, are out and back: 170 degrees.
+const ABOUT_TURN: f64 = 2.97;
 
 #[cfg(test)]
 mod tests {

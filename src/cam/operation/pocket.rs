@@ -22,6 +22,9 @@ const MOST_RINGS: usize = 5000;
 /// How often the path radius is halved where a ring has no room for it, before it is given up.
 const HALVINGS: usize = 2;
 
+/// Heights nearer than this, in millimetres, are one: rounding of sums of depths.
+const SAME_HEIGHT: f64 = 1e-9;
+
 /// Neighbouring paths farther apart than this, in stepovers, are not joined by a way through the stock.
 const LONGEST_JOIN: f64 = 2.5;
 
@@ -57,15 +60,10 @@ pub(super) fn plan(
         Pattern::Rings => {
             let rings = rings(work, &stays, &outline.path, rough_distance, stepover);
             let contours: Vec<Contour> = rings.iter().flat_map(|level| work.contours(level)).collect();
-            let paths: Vec<Vec<Segment>> = contours.iter().map(|c| c.path.segments().collect()).collect();
-            let islands = spurs(&outline.path, &paths, radius);
             let stops: Vec<usize> = order(&contours, Point::origin()).iter().map(|s| s.contour).collect();
             let mut above = work.top;
             for &height in &heights {
                 cuts.rings(&contours, &stops, above, height);
-                for spur in &islands {
-                    cuts.line(spur.from, spur.to, above, height);
-                }
                 above = height;
             }
         }
@@ -85,8 +83,15 @@ pub(super) fn plan(
     if is_finished {
         cuts.finish(&last, radius);
     }
+    let islands = spurs(&last.path, &paths_at(&cuts.moves, work.floor), radius);
+    let mut above = work.top;
+    for &height in heights.iter().filter(|_| !islands.is_empty()) {
+        islands.iter().for_each(|spur| cuts.line(spur.from, spur.to, above, height));
+        above = height;
+    }
     let mut path = fitted(&last.path);
-    let ways = insert(&mut path, &reliefs(&stays, corners, radius, work.path_radius), &mut cuts.notices);
+    let reliefs = reliefs(&stays, corners, radius, work.path_radius, &mut cuts.notices);
+    let ways = insert(&mut path, &reliefs, &mut cuts.notices);
     let mut above = work.top;
     for &height in heights.iter().filter(|_| !ways.is_empty()) {
         ways.iter().for_each(|way| cuts.line(way.start, way.end, above, height));
@@ -263,6 +268,23 @@ impl Cuts<'_> {
             }
         }
     }
+}
+
+/// What is cut at the height `z`, in runs without a lift.
+fn paths_at(moves: &[Move], z: f64) -> Vec<Vec<Segment>> {
+    let mut paths: Vec<Vec<Segment>> = vec![Vec::new()];
+    for pair in moves.windows(2) {
+        match pair[1].kind {
+            MoveKind::Cut(link) if (pair[0].z - z).abs() < SAME_HEIGHT && (pair[1].z - z).abs() < SAME_HEIGHT => {
+                if let Some(path) = paths.last_mut() {
+                    path.push(Segment { start: pair[0].to, end: pair[1].to, link });
+                }
+            }
+            _ => paths.push(Vec::new()),
+        }
+    }
+    paths.retain(|path| path.iter().any(|s| s.length() > 0.0));
+    paths
 }
 
 /// The place of a contour that is nearest to `here`.

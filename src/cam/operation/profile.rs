@@ -32,7 +32,8 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
     };
     let mut path = fitted(&final_level.path);
     let corners = if side == Side::On { Corners::Round } else { corners };
-    let ways = insert(&mut path, &reliefs(&stays, corners, work.tool.radius(), work.path_radius), &mut cuts.notices);
+    let reliefs = reliefs(&stays, corners, work.tool.radius(), work.path_radius, &mut cuts.notices);
+    let ways = insert(&mut path, &reliefs, &mut cuts.notices);
     let contours = work.contours_of(&path);
     match &rough {
         Some(rough) => {

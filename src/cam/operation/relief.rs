@@ -15,6 +15,10 @@ use crate::plane::{Joint, Link, Point, Region, Ring, Segment, Vertex, left_norma
 /// Corners that turn by less than this, in radians (15 degrees), need no relief: a tool rounds them by next to nothing.
 const LEAST_TURN: f64 = 0.26;
 
+/// Corners sharper than this, half of the angle between their walls in radians (60 degrees in all), are left round: the tool
+/// would cut more from the walls than it clears.
+const SHARPEST: f64 = 0.52;
+
 /// How much farther than its geometry says a corner may be from the path, in tool radii: the corner is hidden otherwise.
 const HIDDEN: f64 = 0.05;
 
@@ -36,7 +40,13 @@ pub(super) struct Relief {
 }
 
 /// The ways that a tool of `radius` takes to the inside corners of what stays, on a path of this radius.
-pub(super) fn reliefs(stays: &Region, corners: Corners, radius: f64, path_radius: f64) -> Vec<Relief> {
+pub(super) fn reliefs(
+    stays: &Region,
+    corners: Corners,
+    radius: f64,
+    path_radius: f64,
+    notices: &mut Vec<Notice>,
+) -> Vec<Relief> {
     let mut found = Vec::new();
     if corners == Corners::Round {
         return found;
@@ -57,7 +67,11 @@ pub(super) fn reliefs(stays: &Region, corners: Corners, radius: f64, path_radius
             let corner = ring.vertices[k].point;
             // Half of the free angle between the walls.
             let half = 0.5 * (std::f64::consts::PI + turn);
-            let sine = half.sin().max(1e-3);
+            if half < SHARPEST {
+                notices.push(Notice::CornerSkipped(corner));
+                continue;
+            }
+            let sine = half.sin();
             let to = match corners {
                 Corners::TBone => {
                     // Out of the free side of the longer wall.
@@ -66,7 +80,7 @@ pub(super) fn reliefs(stays: &Region, corners: Corners, radius: f64, path_radius
                 }
                 _ => corner + (leaving - arriving).normalize() * (radius - BEYOND),
             };
-            let reach = (radius + path_radius) * (1.0 / sine - 1.0) + radius * (HIDDEN + 1.0 / half.tan().max(0.1));
+            let reach = (radius + path_radius) * (1.0 / sine - 1.0) + radius * (HIDDEN + 1.0 / half.tan());
             found.push(Relief { corner, to, reach });
         }
     }
