@@ -107,7 +107,9 @@ fn run(number: u64, is_loud: bool) -> Result<bool, String> {
         return Err(format!("gouge {gouge:?}\n{text}"));
     }
     if !check.is_done() {
-        return Err(format!("{check:?}\n{text}"));
+        let islands = &check.islands;
+        let counts = [check.tabs, check.holes, check.passes];
+        return Err(format!("tabs, holes, passes {counts:?}, {} islands {:?}\n{text}", islands.len(), islands.first()));
     }
     let dropped: usize = planned.notices.iter().map(|n| if let Notice::TabsDropped(_, k) = n { *k } else { 0 }).sum();
     if planned.tabs.is_empty() && dropped == 0 && operation.cutting.tabs.is_some() {

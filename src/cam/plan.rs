@@ -5,7 +5,6 @@ use crate::plane::{Point, Region, Turn, Vector};
 use super::lay::{Laying, Pen};
 use super::lead::Room;
 use super::order::order;
-use super::solid::{Remainder, Solid};
 use super::tabs::TabLine;
 use super::{
     Contour, Direction, InvalidJob, Job, Move, MoveKind, OffsetError, Origin, Settings, Side, Toolpath, fit_arcs,
@@ -51,7 +50,7 @@ pub fn plan(job: &Job, part: &Region, closed: &Region) -> Result<Toolpath, PlanE
     let first = stops.first().map_or(Point::origin(), |s| contours[s.contour].entries[s.entry].point);
     moves.push(Move { to: first, z: job.safe_height, kind: MoveKind::Rapid, contour: 0 });
     let heights = job.pass_heights();
-    let solid = Solid::new(&closed.translated(translation), Remainder::Inside);
+    let solid = job.side.solid(&closed.translated(translation));
     let laying = Laying {
         safe_height: job.safe_height,
         top: job.stock_top,

@@ -1,6 +1,7 @@
 //! Which side of the drawn outlines the tool runs on, and what has to be closed for it.
 
 use super::Job;
+use super::solid::{Remainder, Solid};
 use crate::plane::Region;
 
 /// Where the tool runs relative to the drawn outlines.
@@ -24,6 +25,18 @@ impl Side {
         match self {
             Side::Outside | Side::On => part.clone(),
             Side::Inside => part.reversed(),
+        }
+    }
+}
+
+impl Side {
+    /// What [`Side::kept_material`] was closed to, for questions of where the tool may be.
+    ///
+    /// Inside, what stays is all but a region, and winding numbers know regions only.
+    pub(super) fn solid(self, closed: &Region) -> Solid {
+        match self {
+            Side::Outside | Side::On => Solid::new(closed, Remainder::Inside),
+            Side::Inside => Solid::new(&closed.reversed(), Remainder::Outside),
         }
     }
 }

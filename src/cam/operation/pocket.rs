@@ -11,7 +11,6 @@ use crate::cam::entry::EntryPlace;
 use crate::cam::lay::{Notice, Pen};
 use crate::cam::lead::Room;
 use crate::cam::order::order;
-use crate::cam::solid::Solid;
 use crate::cam::tabs::TabLine;
 use crate::cam::{Move, MoveKind, Pattern, Remainder, Side};
 use crate::plane::{Link, Point, Region, Segment};
@@ -45,7 +44,7 @@ pub(super) fn plan(
     if outline.path.is_empty() {
         return Err(OperationError::TooLarge { diameter: work.tool.diameter });
     }
-    let solid = Solid::new(&outline.closed, Remainder::Inside);
+    let solid = Side::Inside.solid(&outline.closed);
     let mut cuts = Cuts {
         work,
         geometry,
@@ -149,7 +148,7 @@ struct Cuts<'a> {
 impl Cuts<'_> {
     /// The walls once more, at full depth.
     fn finish(&mut self, level: &Level, distance: f64) {
-        let solid = Solid::new(&level.closed, Remainder::Inside);
+        let solid = Side::Inside.solid(&level.closed);
         let floor = [self.work.floor];
         let room = Room { solid: &solid, distance };
         let laying = self.work.laying(self.work.top, &floor, Some(room), &self.geometry.holes);

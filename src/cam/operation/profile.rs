@@ -96,7 +96,7 @@ impl<'a> Cuts<'a> {
         Cuts {
             work,
             geometry,
-            solid: Solid::new(closed, Remainder::Inside),
+            solid: side.solid(closed),
             distance,
             has_room: side != Side::On,
             moves: work.first_moves(),

@@ -43,7 +43,7 @@ pub(super) fn plan(
     let radius = work.tool.radius();
     let wall = work.level(&stays, radius)?;
     let left = Level::new(&stays, larger, 0.0, work.cutting.topology)?;
-    let left = Solid::new(&left.closed, Remainder::Inside);
+    let left = side.solid(&left.closed);
     let mut rings: Vec<Vec<Vec<Segment>>> = vec![stretches(work, &wall, &left, radius)];
     for k in 1..MOST_RINGS {
         let Ok(level) = work.level(&stays, radius + k as f64 * stepover) else { break };
