@@ -1,0 +1,138 @@
+//! The page of a job with operations.
+
+use super::differences::Cut;
+use super::page::{file_name, finding};
+use super::setup::{Done, Written};
+use super::setup_report::SetupReport;
+use crate::cam::{OperationKind, Remainder, Setup, Side, uncut};
+use crate::check::{LostFeature, lost_features};
+use crate::cli::report::{GOUGE_LIMIT, Verdict};
+use crate::plane::Region;
+use crate::preview::{Difference, Page, PageOperation, PageProgram, PageTool};
+use crate::reference;
+use crate::units::Radius;
+
+/// The page, with the pictures of the programs in their order, where there are any.
+pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> String {
+    let setup = report.setup;
+    let facts = [
+        ("drawing", file_name(report.input)),
+        ("job", file_name(report.job)),
+        ("dialect", report.dialect.to_owned()),
+        ("stock", stock(setup)),
+        ("safe height", format!("z {} mm", setup.rig.safe_height)),
+        ("acceleration", format!("{:?} mm/s²", setup.rig.limits.acceleration)),
+    ];
+    let findings = report.written.iter().flat_map(|w| w.findings.iter().map(|f| finding(&file_name(&w.path), f)));
+    let mut warnings = setup.cutting_warnings();
+    warnings.extend(report.done.iter().flat_map(|d| report.notes(d)));
+    let programs = report.written.iter().zip(pictures).map(|(w, picture)| PageProgram {
+        name: file_name(&w.path),
+        program: &w.program,
+        machine: setup.rig.limits,
+        tools: setup
+            .tools
+            .iter()
+            .map(|t| PageTool { number: t.number, name: t.name.clone(), diameter: t.diameter })
+            .collect(),
+        stock_top: setup.stock.top,
+        outlines: outlines(report.done, w),
+        picture,
+    });
+    crate::preview::page(&Page {
+        title: format!("{}: what will be cut", file_name(report.input)),
+        is_good: report.verdict() == Verdict::Good,
+        failures: report.failures(),
+        facts: facts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+        operations: report.done.iter().map(|d| operation(report, d)).collect(),
+        differences: report.done.iter().flat_map(|d| differences(setup, d)).collect(),
+        saved: report.saved.copied(),
+        seconds: report.seconds(),
+        findings: findings.collect(),
+        warnings,
+        programs: programs.collect(),
+    })
+}
+
+fn stock(setup: &Setup) -> String {
+    let stock = &setup.stock;
+    let thickness = stock.thickness.map(|t| format!("{t} mm thick"));
+    let parts = [stock.material.clone(), thickness, Some(format!("top at z {} mm", stock.top))];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+fn operation(report: &SetupReport, done: &Done) -> PageOperation {
+    let (check, statistics) = (&done.check, &done.check.statistics);
+    PageOperation {
+        label: check.label.clone(),
+        tool: format!("{}: {}", check.tool, report.setup.tool_of(done.operation).name),
+        passes: statistics.passes,
+        cut_length: statistics.cut_length_mm,
+        depth: statistics.depth_mm,
+        seconds: check.seconds,
+        gouge: check.gouge.map(|g| g.depth_mm),
+        is_good: report.is_good(done),
+    }
+}
+
+/// What the operations of a program must leave.
+fn outlines(done: &[Done], written: &Written) -> Vec<Region> {
+    let of = done.iter().filter(|d| written.index == d.program);
+    of.filter_map(|d| d.planned.keep.as_ref()).map(|k| k.part.clone()).collect()
+}
+
+fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
+    let (operation, check) = (done.operation, &done.check);
+    let tool = setup.tool_of(operation);
+    let acceleration = setup.rig.limits.acceleration[0].min(setup.rig.limits.acceleration[1]);
+    let later = setup.operations.iter().find(|o| {
+        let rest = match o.kind {
+            OperationKind::Profile { rest_of, .. } | OperationKind::Pocket { rest_of, .. } => rest_of,
+            _ => None,
+        };
+        o.line > operation.line && o.select == operation.select && rest == Some(tool.diameter)
+    });
+    let cut = Cut {
+        operation: check.label.clone(),
+        program: done.program,
+        diameter: tool.diameter,
+        path_radius: operation.cutting.path_radius_mm(acceleration),
+        followed_by: later.map(|o| o.label.clone()),
+    };
+    let mut rows = Vec::new();
+    rows.extend(check.gouge.filter(|g| g.depth_mm > GOUGE_LIMIT).map(|g| cut.gouge(&g)));
+    let lost = lost(done, cut.path_radius);
+    rows.extend(cut.lost(&lost));
+    let is_held = !done.planned.tabs.is_empty() || operation.cutting.onion_skin.is_some();
+    // Tabs stand where the tool goes around: they are no corners that it does not reach.
+    let left = match (&operation.kind, &done.planned.keep) {
+        (OperationKind::Profile { .. }, _) if is_held => None,
+        (OperationKind::Profile { .. }, _) => check.uncut.clone(),
+        (OperationKind::Pocket { rest_of: None, .. }, Some(k)) => {
+            Some(uncut(&done.run, &k.part, k.remainder, k.distance, k.floor))
+        }
+        _ => None,
+    };
+    rows.extend(left.iter().flat_map(|u| cut.uncut(u, &lost)));
+    rows.extend(cut.islands(&check.islands));
+    rows.extend(cut.notices(&done.planned.notices));
+    rows
+}
+
+/// Features that the tool does not reach, of operations that cut along whole outlines.
+fn lost(done: &Done, path_radius: f64) -> Vec<LostFeature> {
+    let (OperationKind::Profile { rest_of: None, .. } | OperationKind::Pocket { rest_of: None, .. }, Some(keep)) =
+        (&done.operation.kind, &done.planned.keep)
+    else {
+        return Vec::new();
+    };
+    if matches!(done.operation.kind, OperationKind::Profile { side: Side::On, .. }) {
+        return Vec::new();
+    }
+    let operation = match keep.remainder {
+        Remainder::Inside => reference::Operation::Close,
+        Remainder::Outside => reference::Operation::Open,
+    };
+    let radius = Radius::new(keep.distance + path_radius);
+    radius.map_or(Vec::new(), |radius| lost_features(&keep.part, &keep.kept, radius, operation))
+}
