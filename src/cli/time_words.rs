@@ -13,9 +13,9 @@ pub(super) fn time_saved(saved: &TimeSaved) -> String {
         _ => format!("rounding costs {:.1} s ({:.1} %)", -seconds, -percent),
     };
     format!(
-        "{rounding}: at a feed {}, with sharp inside corners {}; {:.0} mm cut, {:.0} mm with them{}",
-        minutes(saved.rounded.feed_seconds),
-        minutes(saved.sharp.feed_seconds),
+        "{rounding}: at a feed {:.1} s, with sharp inside corners {:.1} s; {:.0} mm cut, {:.0} mm with them{}",
+        saved.rounded.feed_seconds,
+        saved.sharp.feed_seconds,
         saved.rounded_length_mm,
         saved.sharp_length_mm,
         if saved.same_outlines { "" } else { ", which cut outlines that rounding loses" }
@@ -60,7 +60,7 @@ mod tests {
         };
         assert_eq!(
             time_saved(&saved),
-            "rounding saves 55.5 s (75.0 %): at a feed 18.5 s, with sharp inside corners 1 min 14 s; 100 mm cut, 110 mm with them"
+            "rounding saves 55.5 s (75.0 %): at a feed 18.5 s, with sharp inside corners 74.0 s; 100 mm cut, 110 mm with them"
         );
         let words = time_saved(&TimeSaved { rounded: at_feed(80.0), same_outlines: false, ..saved });
         assert!(words.starts_with("rounding costs 6.0 s (8.1 %)") && words.ends_with("rounding loses"), "{words}");

@@ -28,7 +28,7 @@ pub use frame::{Frame, time_captions};
 pub use mesh::{MeshStyle, mesh, meshes};
 pub use mesh_raster::Shading;
 pub use outline::outline;
-pub use page::{Difference, Page, PageFinding, PageOperation, PageProgram, PageTool, page};
+pub use page::{Difference, Outline, Page, PageFinding, PageOperation, PageProgram, PageTool, page};
 pub use program::{Scene, program};
 pub use sheet::DEFAULT_SIZE;
 pub use specimen::{SpecimenRow, specimen};

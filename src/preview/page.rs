@@ -35,8 +35,12 @@ pub struct Page<'a> {
     pub findings: Vec<PageFinding>,
     /// What is unusual about the job.
     pub warnings: Vec<String>,
-    /// The programs.
+    /// The programs, in the order in which they run.
     pub programs: Vec<PageProgram<'a>>,
+    /// What is shown under the path.
+    pub outlines: Vec<Outline>,
+    /// Where the top of the stock lies, z.
+    pub stock_top: f64,
 }
 
 /// A row of the table of operations. Lengths are millimetres.
@@ -65,12 +69,10 @@ pub struct PageOperation {
 pub struct Difference {
     /// The operation.
     pub operation: String,
-    /// The index of its program.
-    pub program: usize,
     /// What it is about.
     pub feature: String,
-    /// Where.
-    pub at: Option<Point>,
+    /// Where: every place that this is true of.
+    pub places: Vec<Point>,
     /// What becomes of it, and by how much.
     pub amount: String,
     /// Why.
@@ -101,14 +103,19 @@ pub struct PageProgram<'a> {
     pub program: &'a Program,
     /// The machine that runs it.
     pub machine: Machine,
-    /// Its tools.
+    /// Its tools; where motions do not say theirs, the first.
     pub tools: Vec<PageTool>,
-    /// Where the top of the stock lies, z.
-    pub stock_top: f64,
-    /// Outlines to be shown under the path.
-    pub outlines: Vec<Region>,
     /// The picture, a PNG file.
     pub picture: Option<Vec<u8>>,
+}
+
+/// An outline under the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Its area.
+    pub region: Region,
+    /// Whether the area must remain.
+    pub remains: bool,
 }
 
 /// A tool, as the page shows it.
@@ -140,13 +147,13 @@ pub fn page(page: &Page) -> String {
         text::escaped(&page.title)
     ));
     sections::verdict(page, &mut html);
-    sections::players(page, &mut html);
+    sections::player(page, &mut html);
     sections::differences(page, &mut html);
     sections::operations(page, &mut html);
     sections::time(page, &mut html);
     sections::findings(page, &mut html);
     sections::pictures(page, &mut html);
-    html.push_str("<script type=\"application/json\" id=\"programs\">");
+    html.push_str("<script type=\"application/json\" id=\"work\">");
     html.push_str(&motions::json(page));
     html.push_str(&format!("</script>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"));
     html

@@ -16,7 +16,6 @@ const NEARLY_SHARP: f64 = 0.1;
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
     pub(super) operation: String,
-    pub(super) program: usize,
     /// Diameter of the tool in millimetres.
     pub(super) diameter: f64,
     /// Path radius in millimetres.
@@ -34,8 +33,8 @@ impl Cut {
         why: String,
         gain: String,
     ) -> Difference {
-        let (operation, program) = (self.operation.clone(), self.program);
-        Difference { operation, program, feature: feature.into(), at, amount, why, gain }
+        let operation = self.operation.clone();
+        Difference { operation, feature: feature.into(), places: at.into_iter().collect(), amount, why, gain }
     }
 
     /// The features of the drawing that are gone.
@@ -107,7 +106,7 @@ impl Cut {
         let left = |radius: f64| place.depth_mm * radius / reach;
         let mut gain = String::new();
         if self.path_radius > 0.0 {
-            gain += &format!("with path radius 0 {:.3} mm stand; ", left(0.5 * self.diameter));
+            gain += &format!("path radius 0 leaves {:.3} mm; ", left(0.5 * self.diameter));
         }
         let sharp = 2.0 * reach * NEARLY_SHARP / place.depth_mm;
         if left(0.5 * self.diameter) > NEARLY_SHARP {
@@ -210,6 +209,19 @@ impl Cut {
     }
 }
 
+/// Rows that say the same of several places made one, in the order of the first.
+pub(super) fn merged(rows: Vec<Difference>) -> Vec<Difference> {
+    let mut merged: Vec<Difference> = Vec::new();
+    let words = |d: &Difference| [&d.operation, &d.feature, &d.amount, &d.why, &d.gain].map(String::clone);
+    for row in rows {
+        match merged.iter_mut().find(|m| words(m) == words(&row)) {
+            Some(same) => same.places.extend(row.places),
+            None => merged.push(row),
+        }
+    }
+    merged
+}
+
 fn point(place: Place) -> Point {
     Point::new(place.x, place.y)
 }
@@ -228,7 +240,7 @@ mod tests {
     use super::*;
 
     fn cut(diameter: f64, path_radius: f64) -> Cut {
-        Cut { operation: "profile".into(), program: 0, diameter, path_radius, followed_by: None }
+        Cut { operation: "profile".into(), diameter, path_radius, followed_by: None }
     }
 
     fn hole(diameter: f64) -> LostFeature {
@@ -245,7 +257,7 @@ mod tests {
         ] {
             let row = &cut(diameter, path_radius).lost(&[hole(width)])[0];
             assert_eq!(row.gain, expected, "{width} {diameter} {path_radius}");
-            assert_eq!(row.at, Some(Point::new(5.0, 6.0)));
+            assert_eq!(row.places, [Point::new(5.0, 6.0)]);
         }
     }
 
@@ -255,12 +267,16 @@ mod tests {
         let depth = |r: f64| (2f64.sqrt() - 1.0) * r;
         let place = |r: f64| UncutPlace { x_mm: 0.0, y_mm: 0.0, area_mm2: 1.0, depth_mm: depth(r), outlines: vec![] };
         let gain = |d: f64, p: f64| cut(d, p).uncut_row(&place(0.5 * d + p)).gain;
-        assert_eq!(
-            gain(4.0, 1.0),
-            "with path radius 0 0.828 mm stand; a tool of 0.48 mm with path radius 0 leaves 0.1 mm"
-        );
+        assert_eq!(gain(4.0, 1.0), "path radius 0 leaves 0.828 mm; a tool of 0.48 mm with path radius 0 leaves 0.1 mm");
         assert!((depth(0.24) - 0.1).abs() < 1e-3);
         assert_eq!(gain(0.4, 0.0), "hardly anything");
+    }
+
+    #[test]
+    fn what_is_true_of_several_places_is_said_once() {
+        let rows = cut(3.0, 0.0).lost(&[hole(1.0), hole(2.0), hole(1.0)]);
+        let merged = merged(rows);
+        assert_eq!(merged.iter().map(|d| d.places.len()).collect::<Vec<_>>(), [2, 1]);
     }
 
     #[test]
@@ -273,7 +289,7 @@ mod tests {
         let uncut = Uncut { area_mm2: 8.0, places: vec![place(4.0), place(20.0)], is_cut_free: true };
         let rows = cut(3.0, 0.0).uncut(&uncut, &[hole(1.0)]);
         assert_eq!(rows.len(), 1);
-        assert_eq!(rows[0].at.unwrap().x, 20.0);
+        assert_eq!(rows[0].places[0].x, 20.0);
         let many = cut(3.0, 0.0).lost(&vec![hole(1.0); MOST_ROWS + 3]);
         assert_eq!((many.len(), many[MOST_ROWS].feature.as_str()), (MOST_ROWS + 1, "3 more lost features"));
     }

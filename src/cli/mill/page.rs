@@ -1,10 +1,10 @@
 //! The page of a single profile.
 
-use super::differences::Cut;
+use super::differences::{Cut, merged};
 use super::{Checked, Plan, Settings};
 use crate::cam::Side;
 use crate::cli::report::{MillReport, Verdict};
-use crate::preview::{Page, PageFinding, PageOperation, PageProgram, PageTool};
+use crate::preview::{Outline, Page, PageFinding, PageOperation, PageProgram, PageTool};
 
 /// The name of a file that the page tells of.
 pub(super) fn file_name(path: &std::path::Path) -> String {
@@ -35,7 +35,6 @@ pub(super) fn page(
     let is_on = job.side == Side::On;
     let cut = Cut {
         operation: "profile".to_owned(),
-        program: 0,
         diameter: job.tool_diameter,
         path_radius: job.path_radius_mm(),
         followed_by: None,
@@ -68,27 +67,22 @@ pub(super) fn page(
         gouge: certificate.gouge.filter(|_| !is_on).map(|g| g.depth_mm),
         is_good: report.verdict() == Verdict::Good,
     };
-    let program = PageProgram {
-        name,
-        program: &checked.program,
-        machine: super::machine(job),
-        tools: vec![tool],
-        stock_top: job.stock_top,
-        outlines: vec![plan.part.clone()],
-        picture,
-    };
+    let program =
+        PageProgram { name, program: &checked.program, machine: super::machine(job), tools: vec![tool], picture };
     crate::preview::page(&Page {
         title: format!("{}: what will be cut", file_name(report.input)),
         is_good: report.verdict() == Verdict::Good,
         failures: report.failures(),
         facts,
         operations: vec![operation],
-        differences,
+        differences: merged(differences),
         saved: report.saved.copied(),
         seconds: certificate.time.total_seconds(),
         findings,
         warnings: Vec::new(),
         programs: vec![program],
+        outlines: vec![Outline { region: plan.part.clone(), remains: job.side != Side::Inside }],
+        stock_top: job.stock_top,
     })
 }
 

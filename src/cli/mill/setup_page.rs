@@ -1,14 +1,14 @@
 //! The page of a job with operations.
 
-use super::differences::Cut;
+use super::differences::{Cut, merged};
 use super::page::{file_name, finding};
 use super::setup::{Done, Written};
 use super::setup_report::SetupReport;
 use crate::cam::{OperationKind, Remainder, Setup, Side, uncut};
 use crate::check::{LostFeature, lost_features};
 use crate::cli::report::{GOUGE_LIMIT, Verdict};
-use crate::plane::Region;
-use crate::preview::{Difference, Page, PageOperation, PageProgram, PageTool};
+use crate::plane::{Region, Ring};
+use crate::preview::{Difference, Outline, Page, PageOperation, PageProgram, PageTool};
 use crate::reference;
 use crate::units::Radius;
 
@@ -21,7 +21,7 @@ pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> Stri
         ("dialect", report.dialect.to_owned()),
         ("stock", stock(setup)),
         ("safe height", format!("z {} mm", setup.rig.safe_height)),
-        ("acceleration", format!("{:?} mm/s²", setup.rig.limits.acceleration)),
+        ("acceleration", setup.rig.limits.acceleration.map(|a| a.to_string()).join(", ") + " mm/s²"),
     ];
     let findings = report.written.iter().flat_map(|w| w.findings.iter().map(|f| finding(&file_name(&w.path), f)));
     let mut warnings = setup.cutting_warnings();
@@ -30,13 +30,7 @@ pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> Stri
         name: file_name(&w.path),
         program: &w.program,
         machine: setup.rig.limits,
-        tools: setup
-            .tools
-            .iter()
-            .map(|t| PageTool { number: t.number, name: t.name.clone(), diameter: t.diameter })
-            .collect(),
-        stock_top: setup.stock.top,
-        outlines: outlines(report.done, w),
+        tools: tools(report, w),
         picture,
     });
     crate::preview::page(&Page {
@@ -45,12 +39,14 @@ pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> Stri
         failures: report.failures(),
         facts: facts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         operations: report.done.iter().map(|d| operation(report, d)).collect(),
-        differences: report.done.iter().flat_map(|d| differences(setup, d)).collect(),
+        differences: merged(report.done.iter().flat_map(|d| differences(setup, d)).collect()),
         saved: report.saved.copied(),
         seconds: report.seconds(),
         findings: findings.collect(),
         warnings,
         programs: programs.collect(),
+        outlines: outlines(report.done),
+        stock_top: setup.stock.top,
     })
 }
 
@@ -75,10 +71,32 @@ fn operation(report: &SetupReport, done: &Done) -> PageOperation {
     }
 }
 
-/// What the operations of a program must leave.
-fn outlines(done: &[Done], written: &Written) -> Vec<Region> {
-    let of = done.iter().filter(|d| written.index == d.program);
-    of.filter_map(|d| d.planned.keep.as_ref()).map(|k| k.part.clone()).collect()
+/// The tools of a program, in the order of their use.
+fn tools(report: &SetupReport, written: &Written) -> Vec<PageTool> {
+    let mut tools: Vec<PageTool> = Vec::new();
+    for done in report.done.iter().filter(|d| d.program == written.index) {
+        let tool = report.setup.tool_of(done.operation);
+        if !tools.iter().any(|t| t.number == tool.number) {
+            tools.push(PageTool { number: tool.number, name: tool.name.clone(), diameter: tool.diameter });
+        }
+    }
+    tools
+}
+
+/// What must remain of parts, and what is cut into them.
+fn outlines(done: &[Done]) -> Vec<Outline> {
+    let mut outlines: Vec<Outline> = Vec::new();
+    for planned in done.iter().map(|d| &d.planned) {
+        let holes = planned.holes.iter().map(|h| Ring::circle(h.center, 0.5 * h.diameter)).collect();
+        let keep = planned.keep.as_ref().map(|k| (k.part.clone(), k.remainder == Remainder::Inside));
+        for (region, remains) in keep.into_iter().chain([(Region::new(holes), false)]) {
+            let outline = Outline { region, remains };
+            if !outline.region.is_empty() && !outlines.contains(&outline) {
+                outlines.push(outline);
+            }
+        }
+    }
+    outlines
 }
 
 fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
@@ -94,7 +112,6 @@ fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
     });
     let cut = Cut {
         operation: check.label.clone(),
-        program: done.program,
         diameter: tool.diameter,
         path_radius: operation.cutting.path_radius_mm(acceleration),
         followed_by: later.map(|o| o.label.clone()),

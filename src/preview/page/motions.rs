@@ -1,7 +1,7 @@
 //! The programs as the script takes them: motions with their times.
 
 use super::text::{number, quoted};
-use super::{Page, PageProgram};
+use super::{Outline, Page, PageProgram};
 use crate::cam::{MotionKind, Point3, motion_seconds, statistics};
 use crate::plane::{Bounds, Link, Region};
 
@@ -11,6 +11,9 @@ const DECIMALS: usize = 4;
 /// Decimals of times, seconds. The time of a motion's end is written, so that rounding does not add up.
 const TIME_DECIMALS: usize = 4;
 
+/// Decimals of angles, radians: a micrometre on a circle of a metre.
+const ANGLE_DECIMALS: usize = 6;
+
 /// What a motion is, in the data.
 const RAPID: u8 = 0;
 const LINE: u8 = 1;
@@ -19,77 +22,81 @@ const WAIT: u8 = 3;
 /// What no motion makes: the program goes on from a place that was not known.
 const JUMP: u8 = 4;
 
-/// All programs, as a JSON array.
+/// All programs, one after the other, as a JSON object.
 pub(super) fn json(page: &Page) -> String {
-    let programs: Vec<String> = page.programs.iter().enumerate().map(|(k, p)| program(page, k, p)).collect();
-    format!("[{}]", programs.join(",\n"))
+    let mut track = Track::default();
+    page.programs.iter().for_each(|p| track.run(p));
+    let numbers = |values: &[f64]| values.iter().map(|v| number(*v, DECIMALS)).collect::<Vec<_>>().join(",");
+    let b = bounds(page);
+    let depths = page.programs.iter().map(|p| statistics(p.program, page.stock_top).depth_mm);
+    let marks = page.differences.iter().enumerate().flat_map(|(k, d)| d.places.iter().map(move |p| (k + 1, p)));
+    let marks: Vec<String> = marks.map(|(k, p)| format!("[{k},{}]", numbers(&[p.x, p.y]))).collect();
+    let outline = |o: &Outline| format!("[{},{}]", u8::from(o.remains), quoted(&path(&o.region)));
+    let outlines: Vec<String> = page.outlines.iter().map(outline).collect();
+    let parts = [
+        format!("\"box\":[{}]", numbers(&[b.min.x, b.min.y, b.max.x, b.max.y])),
+        format!("\"top\":{}", numbers(&[page.stock_top])),
+        format!("\"depth\":{}", numbers(&[depths.fold(0.0, f64::max)])),
+        format!("\"programs\":[{}]", track.programs.join(",")),
+        format!("\"tools\":[{}]", track.tools.join(",")),
+        format!("\"changes\":[{}]", track.changes.join(",")),
+        format!("\"marks\":[{}]", marks.join(",")),
+        format!("\"outlines\":[{}]", outlines.join(",")),
+        format!("\"motions\":[{}]", track.motions.join(",\n")),
+    ];
+    format!("{{{}}}", parts.join(",\n"))
 }
 
-fn program(page: &Page, index: usize, shown: &PageProgram) -> String {
-    let program = shown.program;
-    let mut end = 0.0;
-    let mut place: Option<Point3> = None;
-    let mut tool = None;
-    let mut motions = Vec::with_capacity(program.motions.len());
-    let mut changes = Vec::new();
-    for (motion, seconds) in program.motions.iter().zip(motion_seconds(program, &shown.machine)) {
-        if place != Some(motion.from) {
-            motions.push(row(end, motion.line, JUMP, motion.from, ""));
-        }
-        if tool != Some(motion.tool) {
-            tool = Some(motion.tool);
-            changes.push(format!("[{},{}]", motions.len(), motion.tool));
-        }
-        end += seconds;
-        let sweep: f64 = motion.trace().map(|s| s.sweep()).sum();
-        let (kind, more) = match motion.kind {
-            MotionKind::Rapid => (RAPID, String::new()),
-            MotionKind::Feed { .. } => (LINE, String::new()),
-            MotionKind::Dwell { .. } => (WAIT, String::new()),
-            // An arc without length is none.
-            MotionKind::Arc { .. } if sweep == 0.0 => (LINE, String::new()),
-            MotionKind::Arc { center, turn, .. } => {
-                let [x, y] = [center.x, center.y].map(|v| number(v, DECIMALS));
-                (ARC, format!(",{x},{y},{}", number(turn.sign() * sweep, 6)))
+/// Motions one after the other, as JSON.
+#[derive(Default)]
+struct Track {
+    /// When the last motion ends.
+    end: f64,
+    motions: Vec<String>,
+    /// The first motion of each program, and its name.
+    programs: Vec<String>,
+    tools: Vec<String>,
+    /// From which motion on which tool is in the spindle, as an index.
+    changes: Vec<String>,
+}
+
+impl Track {
+    fn run(&mut self, shown: &PageProgram) {
+        let program = shown.program;
+        let first_tool = self.tools.len();
+        let tools = shown.tools.iter();
+        self.tools.extend(
+            tools.map(|t| format!("{{\"name\":{},\"diameter\":{}}}", quoted(&t.name), number(t.diameter, DECIMALS))),
+        );
+        self.programs.push(format!("[{},{}]", self.motions.len(), quoted(&shown.name)));
+        let mut place: Option<Point3> = None;
+        let mut tool = None;
+        for (motion, seconds) in program.motions.iter().zip(motion_seconds(program, &shown.machine)) {
+            if tool != Some(motion.tool) {
+                tool = Some(motion.tool);
+                let index = shown.tools.iter().position(|t| t.number == motion.tool).unwrap_or(0);
+                self.changes.push(format!("[{},{}]", self.motions.len(), first_tool + index));
             }
-        };
-        motions.push(row(end, motion.line, kind, motion.to, &more));
-        place = Some(motion.to);
+            if place != Some(motion.from) {
+                self.motions.push(row(self.end, motion.line, JUMP, motion.from, ""));
+            }
+            self.end += seconds;
+            let sweep: f64 = motion.trace().map(|s| s.sweep()).sum();
+            let (kind, more) = match motion.kind {
+                MotionKind::Rapid => (RAPID, String::new()),
+                MotionKind::Feed { .. } => (LINE, String::new()),
+                MotionKind::Dwell { .. } => (WAIT, String::new()),
+                // An arc without length is none.
+                MotionKind::Arc { .. } if sweep == 0.0 => (LINE, String::new()),
+                MotionKind::Arc { center, turn, .. } => {
+                    let [x, y] = [center.x, center.y].map(|v| number(v, DECIMALS));
+                    (ARC, format!(",{x},{y},{}", number(turn.sign() * sweep, ANGLE_DECIMALS)))
+                }
+            };
+            self.motions.push(row(self.end, motion.line, kind, motion.to, &more));
+            place = Some(motion.to);
+        }
     }
-    let tools: Vec<String> = shown
-        .tools
-        .iter()
-        .map(|t| {
-            format!(
-                "{{\"number\":{},\"name\":{},\"diameter\":{}}}",
-                t.number,
-                quoted(&t.name),
-                number(t.diameter, DECIMALS)
-            )
-        })
-        .collect();
-    let marks: Vec<String> = page
-        .differences
-        .iter()
-        .enumerate()
-        .filter(|(_, d)| d.program == index)
-        .filter_map(|(k, d)| d.at.map(|p| format!("[{},{},{}]", k + 1, number(p.x, DECIMALS), number(p.y, DECIMALS))))
-        .collect();
-    let b = bounds(shown);
-    format!(
-        "{{\"box\":[{},{},{},{}],\"top\":{},\"depth\":{},\"tools\":[{}],\"changes\":[{}],\"marks\":[{}],\"outlines\":[{}],\n\"motions\":[{}]}}",
-        number(b.min.x, DECIMALS),
-        number(b.min.y, DECIMALS),
-        number(b.max.x, DECIMALS),
-        number(b.max.y, DECIMALS),
-        number(shown.stock_top, DECIMALS),
-        number(statistics(program, shown.stock_top).depth_mm, DECIMALS),
-        tools.join(","),
-        changes.join(","),
-        marks.join(","),
-        shown.outlines.iter().map(|r| quoted(&path(r))).collect::<Vec<_>>().join(","),
-        motions.join(",\n")
-    )
 }
 
 fn row(end: f64, line: usize, kind: u8, to: Point3, more: &str) -> String {
@@ -98,16 +105,19 @@ fn row(end: f64, line: usize, kind: u8, to: Point3, more: &str) -> String {
 }
 
 /// What must be seen: outlines, and what the tools sweep in the stock. Rapids may leave the picture.
-fn bounds(shown: &PageProgram) -> Bounds {
-    let outlines = shown.outlines.iter().fold(Bounds::EMPTY, |b, r| b.union(r.bounds()));
-    let radius = shown.tools.iter().map(|t| 0.5 * t.diameter).filter(|r| r.is_finite()).fold(0.0, f64::max);
-    let path = |only_cuts: bool| {
-        let motions = shown.program.motions.iter().filter(|m| !only_cuts || m.is_in_stock(shown.stock_top));
+fn bounds(page: &Page) -> Bounds {
+    let outlines = page.outlines.iter().fold(Bounds::EMPTY, |b, o| b.union(o.region.bounds()));
+    let path = |shown: &PageProgram, only_cuts: bool| {
+        let motions = shown.program.motions.iter().filter(|m| !only_cuts || m.is_in_stock(page.stock_top));
         motions.fold(Bounds::EMPTY, |b, m| m.trace().fold(b.with_point(m.to.xy()), |b, s| b.union(s.bounds())))
     };
-    let cut = path(true);
-    let all = outlines.union(if cut.is_empty() { cut } else { cut.inflated(radius) });
-    if all.is_empty() { path(false) } else { all }
+    let cuts = page.programs.iter().map(|p| {
+        let radius = p.tools.iter().map(|t| 0.5 * t.diameter).filter(|r| r.is_finite()).fold(0.0, f64::max);
+        let cut = path(p, true);
+        if cut.is_empty() { cut } else { cut.inflated(radius) }
+    });
+    let all = cuts.fold(outlines, |b, cut| b.union(cut));
+    if all.is_empty() { page.programs.iter().fold(all, |b, p| b.union(path(p, false))) } else { all }
 }
 
 /// A region as the data of an SVG path, y upward.

@@ -10,6 +10,8 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
   // Steps of colour between the top of the stock and the deepest cut; motions stroked at once.
   const STEPS = 16, CHUNK = 400;
   const MARGIN = 16;
+  // Seconds: just behind the end of a motion, in the next.
+  const AFTER = 1e-6;
 
   function color(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -38,8 +40,8 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
     const total = count ? motions[count - 1][END] : 0;
     const find = (name) => root.querySelector("." + name);
     const canvas = root.querySelector("canvas"), context = canvas.getContext("2d");
-    const play = find("play"), slider = find("time"), speed = find("speed");
-    const outlines = program.outlines.map((path) => new Path2D(path));
+    const play = find("play"), slider = find("time"), speed = find("speed"), choice = find("program");
+    const outlines = program.outlines.map(([remains, path]) => [remains, new Path2D(path)]);
     const ghost = document.createElement("canvas"), swath = document.createElement("canvas"), path = document.createElement("canvas");
     const layers = [ghost, swath, path];
     let time = 0, playing = false, before = 0, drawn = 0, colors = {}, view = null;
@@ -58,13 +60,19 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
       return low;
     }
 
-    function toolAt(k) {
-      let number = 0;
-      for (const [first, tool] of program.changes) {
-        if (first > k) break;
-        number = tool;
+    // The last entry of a list that begins with or before motion k.
+    function entryAt(list, k) {
+      let low = 0, high = list.length;
+      while (low < high) {
+        const middle = (low + high) >> 1;
+        if (list[middle][0] > k) high = middle; else low = middle + 1;
       }
-      return program.tools.find((tool) => tool.number === number) || program.tools[0] || { name: "", diameter: 0 };
+      return Math.max(low - 1, 0);
+    }
+
+    function toolAt(k) {
+      const change = program.changes[entryAt(program.changes, k)];
+      return program.tools[change ? change[1] : 0] || { name: "", diameter: 0 };
     }
 
     // Where the tool is after the fraction f of a motion.
@@ -167,10 +175,8 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
       for (const name of ["part", "outline", "swath", "ghost", "rapid", "tool", "mark", "ink", "back"]) colors[name] = color("--" + name);
       colors.ramp = ramp();
       const c = clear(ghost);
-      for (const outline of outlines) {
-        c.fillStyle = colors.part;
-        c.fill(outline, "evenodd");
-      }
+      c.fillStyle = colors.part;
+      for (const [remains, outline] of outlines) if (remains) c.fill(outline, "evenodd");
       stroke(c, 0, count, 1, prepared(c, true));
       clear(swath);
       clear(path);
@@ -202,7 +208,7 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
       c.setLineDash([]);
       c.lineWidth = 1.2 / view.scale;
       c.strokeStyle = colors.outline;
-      for (const outline of outlines) c.stroke(outline);
+      for (const [, outline] of outlines) c.stroke(outline);
       c.setTransform(1, 0, 0, 1, 0, 0);
       c.drawImage(path, 0, 0);
       millimetres(c);
@@ -233,7 +239,9 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
       slider.value = time;
       slider.setAttribute("aria-valuetext", clock(time) + " of " + clock(total));
       find("clock").textContent = clock(time) + " of " + clock(total);
-      find("line").textContent = "line " + motions[k][LINE];
+      const running = entryAt(program.programs, k);
+      if (choice) choice.value = running;
+      find("line").textContent = "line " + motions[k][LINE] + " of " + program.programs[running][1];
       find("z").textContent = "z " + at.z.toFixed(3) + " mm";
       find("what").textContent = NAMES[motions[k][KIND]] + (tool.name ? ", " + tool.name : "");
     }
@@ -270,6 +278,11 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
     find("back").addEventListener("click", () => step(-1));
     find("next").addEventListener("click", () => step(1));
     slider.addEventListener("input", () => { set(false); time = Number(slider.value); draw(); });
+    if (choice) choice.addEventListener("change", () => {
+      set(false);
+      time = begin(program.programs[Number(choice.value)][0]) + AFTER;
+      draw();
+    });
     canvas.addEventListener("keydown", (event) => {
       if (event.key === " ") set(!playing);
       else if (event.key === "ArrowRight") step(1);
@@ -287,10 +300,9 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
     return { go: (share) => { time = share * total; draw(); } };
   }
 
-  const programs = JSON.parse(document.getElementById("programs").textContent);
-  const players = programs.map((program, k) => start(program, document.getElementById("player-" + k)));
+  const player = start(JSON.parse(document.getElementById("work").textContent), document.getElementById("player"));
   // A link can say where to begin: #50 is half of the time.
   const share = parseFloat(location.hash.slice(1)) / 100;
-  if (share >= 0 && share <= 1) for (const player of players) player.go(share);
+  if (share >= 0 && share <= 1) player.go(share);
   requestAnimationFrame(() => { document.body.dataset.ready = "yes"; });
 })();

@@ -4,6 +4,9 @@ use super::base64::encoded;
 use super::text::{duration, escaped, number};
 use super::{Difference, Page, PageOperation};
 
+/// Places named in a row; the path in motion shows all.
+const PLACES_SHOWN: usize = 6;
+
 /// A table: its head, whether each column is of numbers, and its rows as HTML.
 fn table(head: &[(&str, bool)], rows: &[Vec<String>], html: &mut String) {
     html.push_str("<div class=\"wide\"><table>\n<thead><tr>");
@@ -56,32 +59,38 @@ pub(super) fn verdict(page: &Page, html: &mut String) {
     html.push_str("</dl>\n");
 }
 
-/// The path of each program in motion.
-pub(super) fn players(page: &Page, html: &mut String) {
-    html.push_str("<section aria-labelledby=\"h-path\">\n<h2 id=\"h-path\">The path in motion</h2>\n");
-    html.push_str("<p class=\"hint\">Drawn from the programs as they were read back. Space plays and pauses; ← and → go from motion to motion.</p>\n");
-    for (k, program) in page.programs.iter().enumerate() {
-        html.push_str(&format!(
-            "<figure class=\"player\" id=\"player-{k}\">\n<figcaption>{name}</figcaption>\n\
-             <canvas tabindex=\"0\" role=\"img\" aria-label=\"path of the tool of {name}\"></canvas>\n\
-             <div class=\"controls\">\n<button type=\"button\" class=\"play\">Play</button>\n\
-             <button type=\"button\" class=\"back\" aria-label=\"motion before\">◀</button>\n\
-             <button type=\"button\" class=\"next\" aria-label=\"next motion\">▶</button>\n\
-             <input type=\"range\" class=\"time\" min=\"0\" value=\"0\" step=\"any\" aria-label=\"time\">\n\
-             <label>speed <select class=\"speed\"><option value=\"0.25\">¼ ×</option><option value=\"1\">1 ×</option>\
-             <option value=\"4\" selected>4 ×</option><option value=\"16\">16 ×</option><option value=\"64\">64 ×</option>\
-             <option value=\"256\">256 ×</option></select></label>\n</div>\n\
-             <p class=\"state\"><output class=\"clock\"></output><output class=\"line\"></output>\
-             <output class=\"z\"></output><output class=\"what\"></output></p>\n\
-             <p class=\"legend\"><span><i class=\"ramp\"></i>0 to {depth} mm deep</span><span><i class=\"dash\"></i>rapid</span>\
-             <span><i class=\"disk\"></i>tool</span><span><i class=\"ring\"></i>difference, numbered as below</span></p>\n\
-             <noscript><p>The path moves where scripts are allowed; all else on this page needs none.</p></noscript>\n\
-             </figure>\n",
-            name = escaped(&program.name),
-            depth = number(crate::cam::statistics(program.program, program.stock_top).depth_mm, 3),
-        ));
+/// The paths in motion, one program after the other.
+pub(super) fn player(page: &Page, html: &mut String) {
+    let depths = page.programs.iter().map(|p| crate::cam::statistics(p.program, page.stock_top).depth_mm);
+    let mut choice = String::new();
+    if page.programs.len() > 1 {
+        let option =
+            |(k, p): (usize, &super::PageProgram)| format!("<option value=\"{k}\">{}</option>", escaped(&p.name));
+        let options: String = page.programs.iter().enumerate().map(option).collect();
+        choice = format!("<label>program <select class=\"program\">{options}</select></label>\n");
     }
-    html.push_str("</section>\n");
+    html.push_str("<section aria-labelledby=\"h-path\">\n<h2 id=\"h-path\">The path in motion</h2>\n");
+    html.push_str(
+        "<p class=\"hint\">Drawn from the program as it was read back. On the picture, space plays and pauses, ← and → go from \
+         motion to motion.</p>\n",
+    );
+    html.push_str(&format!(
+        "<figure id=\"player\">\n<canvas tabindex=\"0\" role=\"img\" aria-label=\"the path of the tool\"></canvas>\n\
+         <div class=\"controls\">\n<button type=\"button\" class=\"play\">Play</button>\n\
+         <button type=\"button\" class=\"back\" aria-label=\"motion before\">◀</button>\n\
+         <button type=\"button\" class=\"next\" aria-label=\"next motion\">▶</button>\n\
+         <input type=\"range\" class=\"time\" min=\"0\" value=\"0\" step=\"any\" aria-label=\"time\">\n\
+         <label>speed <select class=\"speed\"><option value=\"0.25\">¼ ×</option><option value=\"1\">1 ×</option>\
+         <option value=\"4\" selected>4 ×</option><option value=\"16\">16 ×</option><option value=\"64\">64 ×</option>\
+         <option value=\"256\">256 ×</option></select></label>\n{choice}</div>\n\
+         <p class=\"state\"><output class=\"clock\"></output><output class=\"line\"></output>\
+         <output class=\"z\"></output><output class=\"what\"></output></p>\n\
+         <p class=\"legend\"><span><i class=\"ramp\"></i>0 to {} mm deep</span><span><i class=\"dash\"></i>rapid</span>\
+         <span><i class=\"disk\"></i>tool</span><span><i class=\"ring\"></i>difference, numbered as below</span></p>\n\
+         <noscript><p>The path moves where scripts are allowed; all else on this page needs none.</p></noscript>\n\
+         </figure>\n</section>\n",
+        number(depths.fold(0.0, f64::max), 3),
+    ));
 }
 
 /// How the result will differ.
@@ -98,9 +107,17 @@ pub(super) fn differences(page: &Page, html: &mut String) {
         head.insert(1, ("operation", false));
     }
     let row = |(k, d): (usize, &Difference)| {
-        let at = d.at.map_or(String::new(), |p| format!("{}, {}", number(p.x, 3), number(p.y, 3)));
+        let mut at: Vec<String> =
+            d.places.iter().take(PLACES_SHOWN).map(|p| format!("{}, {}", number(p.x, 3), number(p.y, 3))).collect();
+        if d.places.len() > PLACES_SHOWN {
+            at.push(format!("and {} more", d.places.len() - PLACES_SHOWN));
+        }
+        let feature = match d.places.len() {
+            0 | 1 => escaped(&d.feature),
+            count => format!("{}, {count} times", escaped(&d.feature)),
+        };
         let mut row =
-            vec![(k + 1).to_string(), escaped(&d.feature), at, escaped(&d.amount), escaped(&d.why), escaped(&d.gain)];
+            vec![(k + 1).to_string(), feature, at.join("<br>"), escaped(&d.amount), escaped(&d.why), escaped(&d.gain)];
         if several {
             row.insert(1, escaped(&d.operation));
         }
@@ -152,7 +169,7 @@ pub(super) fn time(page: &Page, html: &mut String) {
         return;
     };
     let head = [("path", false), ("time at a feed", true), ("way in the stock, mm", true)];
-    let row = |name: &str, seconds: f64, length: f64| vec![name.to_owned(), duration(seconds), number(length, 1)];
+    let row = |name: &str, seconds: f64, length: f64| vec![name.to_owned(), seconds_of(seconds), number(length, 1)];
     let percent = |saved: f64| format!("{saved:.1} %");
     let rows = [
         row("with sharp inside corners", saved.sharp.feed_seconds, saved.sharp_length_mm),
@@ -173,6 +190,11 @@ pub(super) fn time(page: &Page, html: &mut String) {
         html.push_str(" Rounding loses outlines that the sharp path cuts: their time is no saving.");
     }
     html.push_str("</p>\n</section>\n");
+}
+
+/// Seconds that are to be held against others: with a decimal.
+fn seconds_of(seconds: f64) -> String {
+    format!("{seconds:.1} s")
 }
 
 /// What lint and the settings say.
