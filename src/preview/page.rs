@@ -9,7 +9,7 @@ mod motions;
 mod sections;
 mod text;
 
-use crate::cam::{Machine, Program, TimeSaved};
+use crate::cam::{Machine, Program, TimeSaved, Tool, ToolShape};
 use crate::plane::{Point, Region};
 
 /// All that the page tells. Places are in the machine's coordinates, in millimetres.
@@ -127,9 +127,26 @@ pub struct PageTool {
     pub name: String,
     /// Its diameter in millimetres.
     pub diameter: f64,
+    /// The same at its tip.
+    pub tip: f64,
+    /// How much wider it gets with every millimetre above its tip.
+    pub widening: f64,
+}
+
+impl PageTool {
+    /// The tool that motions know by `number`.
+    pub fn new(number: u32, tool: &Tool) -> PageTool {
+        let (tip, widening) = match tool.shape {
+            ToolShape::Flat | ToolShape::Ball => (tool.diameter, 0.0),
+            ToolShape::Cone { angle, tip_diameter } => (tip_diameter, 2.0 * (0.5 * angle).tan()),
+        };
+        PageTool { number, name: tool.name.clone(), diameter: tool.diameter, tip, widening }
+    }
 }
 
 const STYLE: &str = include_str!("page/style.css");
+/// What goes wrong is told where a test can find it; apart, so that it is there whatever becomes of the script.
+const WATCH: &str = "window.onerror = (message) => { document.body.dataset.error = String(message); };";
 const SCRIPT: &str = include_str!("page/script.js");
 
 /// What the page may load: nothing. Pictures are in it, as are style and script.
@@ -155,7 +172,7 @@ pub fn page(page: &Page) -> String {
     sections::pictures(page, &mut html);
     html.push_str("<script type=\"application/json\" id=\"work\">");
     html.push_str(&motions::json(page));
-    html.push_str(&format!("</script>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"));
+    html.push_str(&format!("</script>\n<script>{WATCH}</script>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"));
     html
 }
 

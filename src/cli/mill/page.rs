@@ -2,7 +2,7 @@
 
 use super::differences::{Cut, merged};
 use super::{Checked, Plan, Settings};
-use crate::cam::Side;
+use crate::cam::{Side, Tool};
 use crate::cli::report::{MillReport, Verdict};
 use crate::preview::{Outline, Page, PageFinding, PageOperation, PageProgram, PageTool};
 
@@ -55,7 +55,7 @@ pub(super) fn page(
         (name.to_owned(), value.to_owned())
     }));
     facts.push(("corners".to_owned(), format!("those inside get a radius of {:.3} mm", job.closing_radius())));
-    let tool = PageTool { number: 0, name: format!("tool of {} mm", job.tool_diameter), diameter: job.tool_diameter };
+    let tool = Tool { name: format!("tool of {} mm", job.tool_diameter), ..Tool::flat(1, job.tool_diameter) };
     let findings = report.findings.iter().map(|f| finding(&name, f)).collect();
     let operation = PageOperation {
         label: format!("profile, {}", format!("{:?}", job.side).to_lowercase()),
@@ -67,8 +67,13 @@ pub(super) fn page(
         gouge: certificate.gouge.filter(|_| !is_on).map(|g| g.depth_mm),
         is_good: report.verdict() == Verdict::Good,
     };
-    let program =
-        PageProgram { name, program: &checked.program, machine: super::machine(job), tools: vec![tool], picture };
+    let program = PageProgram {
+        name,
+        program: &checked.program,
+        machine: super::machine(job),
+        tools: vec![PageTool::new(1, &tool)],
+        picture,
+    };
     crate::preview::page(&Page {
         title: format!("{}: what will be cut", file_name(report.input)),
         is_good: report.verdict() == Verdict::Good,

@@ -3,7 +3,7 @@
 use super::differences::{Cut, merged};
 use super::page::{file_name, finding};
 use super::setup::{Done, Written};
-use super::setup_report::SetupReport;
+use super::setup_report::{SetupReport, loose_part};
 use crate::cam::{OperationKind, Remainder, Setup, Side, uncut};
 use crate::check::{LostFeature, lost_features};
 use crate::cli::report::{GOUGE_LIMIT, Verdict};
@@ -25,7 +25,8 @@ pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> Stri
     ];
     let findings = report.written.iter().flat_map(|w| w.findings.iter().map(|f| finding(&file_name(&w.path), f)));
     let mut warnings = setup.cutting_warnings();
-    warnings.extend(report.done.iter().flat_map(|d| report.notes(d)));
+    let loose = |d: &Done| loose_part(d, setup).map(|words| format!("{}: {words}", d.check.label));
+    warnings.extend(report.done.iter().filter_map(loose));
     let programs = report.written.iter().zip(pictures).map(|(w, picture)| PageProgram {
         name: file_name(&w.path),
         program: &w.program,
@@ -77,7 +78,7 @@ fn tools(report: &SetupReport, written: &Written) -> Vec<PageTool> {
     for done in report.done.iter().filter(|d| d.program == written.index) {
         let tool = report.setup.tool_of(done.operation);
         if !tools.iter().any(|t| t.number == tool.number) {
-            tools.push(PageTool { number: tool.number, name: tool.name.clone(), diameter: tool.diameter });
+            tools.push(PageTool::new(tool.number, tool));
         }
     }
     tools

@@ -39,9 +39,11 @@ impl SetupReport<'_> {
 
     /// What is wrong, in sentences.
     pub(super) fn failures(&self) -> Vec<String> {
-        let of =
-            |d: &Done| words(d, self.setup).failures.into_iter().map(|f| format!("{}: {f}", d.check.label)).collect();
-        let mut failures: Vec<String> = self.done.iter().flat_map(|d| -> Vec<String> { of(d) }).collect();
+        let mut failures = Vec::new();
+        for done in self.done {
+            let words = words(done, self.setup).failures.into_iter();
+            failures.extend(words.map(|f| format!("{}: {f}", done.check.label)));
+        }
         failures.extend(self.unsafe_travel.iter().cloned());
         for written in self.written {
             if written.findings.iter().any(|f| f.severity == Severity::Error) {
@@ -55,11 +57,6 @@ impl SetupReport<'_> {
     /// Whether an operation does what was asked.
     pub(super) fn is_good(&self, done: &Done) -> bool {
         words(done, self.setup).failures.is_empty()
-    }
-
-    /// What is only to be known of an operation.
-    pub(super) fn notes(&self, done: &Done) -> Vec<String> {
-        words(done, self.setup).notes.into_iter().map(|n| format!("{}: {n}", done.check.label)).collect()
     }
 
     /// Seconds that all programs take.
@@ -221,12 +218,17 @@ fn words(done: &Done, setup: &Setup) -> Words {
             }
         }
     }
+    notes.extend(loose_part(done, setup));
+    Words { failures, notes }
+}
+
+/// Whether a part is loose while it is finished, in words.
+pub(super) fn loose_part(done: &Done, setup: &Setup) -> Option<String> {
     let cutting = &done.operation.cutting;
     let through = setup.stock.thickness.is_some_and(|t| cutting.depth >= t);
-    if through && planned.tabs.is_empty() && cutting.onion_skin.is_none() && cutting.finish && is_profile(done) {
-        notes.push("the part is loose when its walls are finished: tabs or an onion skin hold it".to_owned());
-    }
-    Words { failures, notes }
+    let is_held = !done.planned.tabs.is_empty() || cutting.onion_skin.is_some();
+    (through && !is_held && cutting.finish && is_profile(done))
+        .then(|| "the part is loose when its walls are finished: tabs or an onion skin hold it".to_owned())
 }
 
 fn is_profile(done: &Done) -> bool {

@@ -1,7 +1,7 @@
 //! The programs as the script takes them: motions with their times.
 
 use super::text::{number, quoted};
-use super::{Outline, Page, PageProgram};
+use super::{Outline, Page, PageProgram, PageTool};
 use crate::cam::{MotionKind, Point3, motion_seconds, statistics};
 use crate::plane::{Bounds, Link, Region};
 
@@ -64,10 +64,12 @@ impl Track {
     fn run(&mut self, shown: &PageProgram) {
         let program = shown.program;
         let first_tool = self.tools.len();
-        let tools = shown.tools.iter();
-        self.tools.extend(
-            tools.map(|t| format!("{{\"name\":{},\"diameter\":{}}}", quoted(&t.name), number(t.diameter, DECIMALS))),
-        );
+        let tool = |t: &PageTool| {
+            let [diameter, tip, widening] = [t.diameter, t.tip, t.widening].map(|v| number(v, DECIMALS));
+            let name = quoted(&t.name);
+            format!("{{\"name\":{name},\"diameter\":{diameter},\"tip\":{tip},\"widening\":{widening}}}")
+        };
+        self.tools.extend(shown.tools.iter().map(tool));
         self.programs.push(format!("[{},{}]", self.motions.len(), quoted(&shown.name)));
         let mut place: Option<Point3> = None;
         let mut tool = None;

@@ -1,7 +1,4 @@
 "use strict";
-// What goes wrong is told where it can be found, and on the page.
-window.onerror = (message) => { document.body.dataset.error = String(message); };
-
 (() => {
   // Columns of a motion: its end in seconds, line, kind, x, y, z; of an arc also its centre and its sweep.
   const END = 0, LINE = 1, KIND = 2, X = 3, Y = 4, Z = 5, CX = 6, CY = 7, SWEEP = 8;
@@ -72,7 +69,12 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
 
     function toolAt(k) {
       const change = program.changes[entryAt(program.changes, k)];
-      return program.tools[change ? change[1] : 0] || { name: "", diameter: 0 };
+      return program.tools[change ? change[1] : 0] || { name: "", diameter: 0, tip: 0, widening: 0 };
+    }
+
+    // How wide a tool cuts at the top of the stock when its tip is at z: a cone less than its diameter.
+    function widthAt(tool, z) {
+      return Math.min(tool.diameter, tool.tip + tool.widening * Math.max(0, program.top - z));
     }
 
     // Where the tool is after the fraction f of a motion.
@@ -143,7 +145,7 @@ window.onerror = (message) => { document.body.dataset.error = String(message); }
     function sweeping(c) {
       return (k, only) => {
         if (!inStock(k) || styleOf(k) < 1) return null;
-        const width = toolAt(k).diameter;
+        const width = widthAt(toolAt(k), Math.min(from(k)[Z], motions[k][Z]));
         if (!only) { c.setLineDash([]); c.lineWidth = width; c.strokeStyle = colors.swath; }
         return width;
       };

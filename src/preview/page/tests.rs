@@ -21,7 +21,7 @@ fn shown<'a>(program: &'a Program, difference: Difference) -> Page<'a> {
             name: "\"><b>".into(),
             program,
             machine: Machine::default(),
-            tools: vec![PageTool { number: 0, name: "</script>".into(), diameter: 2.0 }],
+            tools: vec![PageTool::new(0, &Tool { name: "</script>".into(), ..Tool::flat(1, 2.0) })],
             picture: Some(b"foob".to_vec()),
         }],
         outlines: vec![Outline { region: Region::new(vec![Ring::circle(Point::origin(), 9.0)]), remains: true }],
@@ -78,7 +78,7 @@ fn words_never_become_markup() {
     for markup in ["<u>", "<b>", "<script>alert", "<img src=x", "name\":\"</"] {
         assert!(!html.contains(markup), "{markup}");
     }
-    assert_eq!(html.matches("</script>").count(), 2, "the data's and the script's own");
+    assert_eq!(html.matches("</script>").count(), 3, "the data's and the scripts' own");
     assert!(html.contains("src=\"data:image/png;base64,Zm9vYg==\""));
 }
 
