@@ -89,7 +89,7 @@ fn leads_come_and_go_in_the_waste_and_are_left_out_with_a_word_where_there_is_no
     }
     // A hole hardly wider than the tool.
     let tight = r#"<path fill-rule="evenodd" d="M10 10H70V50H10ZM30 30A1.6 1.6 0 1 0 26.8 30A1.6 1.6 0 1 0 30 30Z"/>"#;
-    let (planned, _) = run(lead, &geometry(tight));
+    let (planned, _) = run(&format!("{lead}path-radius = 0\n"), &geometry(tight));
     assert!(
         planned
             .notices
@@ -211,4 +211,107 @@ fn every_impossible_value_is_told_with_its_line_and_the_nearest_name() {
         let told = problems(&text);
         assert!(told.contains(&expected), "expected {expected}\nin {told}\nfor {text}");
     }
+}
+
+/// Whether some cut at the floor passes within `radius` of `p`.
+fn is_cut(program: &Program, p: Point, radius: f64, floor: f64) -> bool {
+    let at_floor = program.motions.iter().filter(|m| m.is_feed() && m.from.z <= floor + 1e-3 && m.to.z <= floor + 1e-3);
+    at_floor.flat_map(|m| m.trace()).any(|s| s.nearest(p).distance <= radius)
+}
+
+#[test]
+fn the_rest_of_a_larger_tool_is_cut_and_little_else() {
+    let square = geometry(r#"<rect x="10" y="10" width="40" height="40"/>"#);
+    let jobs = "[[tool]]\nnumber = 4\ndiameter = 8\n[[operation]]\nkind = \"pocket\"\ntool = 4\ndepth = 1\npath-radius = 0\n\
+                [[operation]]\nkind = \"pocket\"\ntool = 1\ndepth = 1\npath-radius = 0\n";
+    let setup_of = |rest: &str| setup(&format!("{jobs}{rest}"));
+    let rest = setup_of("rest-of = 4\n");
+    let length = |setup: &Setup| {
+        let planned = plan_operation(setup, &setup.operations[1], &square).unwrap();
+        statistics(&read_back(&planned), 0.0).cut_length_mm
+    };
+    let whole = length(&setup_of(""));
+    assert!(length(&rest) < 0.1 * whole, "{} of {whole}", length(&rest));
+    // In every corner the larger tool leaves what lies beyond its circle: the smaller one gets there.
+    let program = read_back(&plan_operation(&rest, &rest.operations[1], &square).unwrap());
+    for (x, y) in [(10.5, -10.5), (49.5, -10.5), (49.5, -49.5), (10.5, -49.5)] {
+        assert!(is_cut(&program, Point::new(x, y), 1.5, -1.0), "({x}, {y})");
+    }
+    assert!(!is_cut(&program, Point::new(30.0, -30.0), 1.5, -1.0));
+}
+
+#[test]
+fn dogbones_and_t_bones_reach_into_the_corners_and_round_ones_do_not() {
+    let square = geometry(r#"<rect x="10" y="10" width="30" height="20"/>"#);
+    for kind in ["pocket", "profile"] {
+        let job = |corners: &str| {
+            let side = if kind == "profile" { "side = \"inside\"\n" } else { "" };
+            format!(
+                "[[operation]]\nkind = \"{kind}\"\ntool = 1\ndepth = 1\npath-radius = 0.4\ncorners = \"{corners}\"\n{side}"
+            )
+        };
+        for (corners, reached) in [("round", false), ("dogbone", true), ("t-bone", true)] {
+            let (_, program) = run(&job(corners), &square);
+            for (x, y) in [(10.0, -10.0), (40.0, -10.0), (40.0, -30.0), (10.0, -30.0)] {
+                assert_eq!(is_cut(&program, Point::new(x, y), 1.5, -1.0), reached, "{kind} {corners} ({x}, {y})");
+            }
+        }
+    }
+}
+
+#[test]
+fn facing_leaves_nothing_of_the_top() {
+    let text = TOOLS.replace("thickness = 6\n", "thickness = 6\nwidth = 50\nheight = 20\n");
+    let file: SetupFile = format!("{text}[[operation]]\nkind = \"facing\"\ntool = 1\ndepth = 0.5\n").parse().unwrap();
+    let setup = file.resolve(&Default::default(), &SCALE).unwrap();
+    let planned = plan_operation(&setup, &setup.operations[0], &Geometry::default()).unwrap();
+    let program = read_back(&planned);
+    for k in 0..=50 {
+        for j in 0..=20 {
+            assert!(is_cut(&program, Point::new(f64::from(k), f64::from(j)), 1.5, -0.5), "({k}, {j})");
+        }
+    }
+    // It goes down beside the stock.
+    let plunge = program.motions.iter().find(|m| m.is_feed() && m.to.z < 0.0).unwrap();
+    assert!(plunge.to.x < -1.5);
+}
+
+#[test]
+fn lines_are_followed_to_and_fro() {
+    let line = cam::CutLine {
+        ring: clopen::plane::Ring::polygon([Point::new(0.0, 0.0), Point::new(30.0, 0.0), Point::new(30.0, 10.0)]),
+        is_closed: false,
+    };
+    let geometry = Geometry { lines: vec![line], ..Geometry::default() };
+    let (_, program) = run("[[operation]]\nkind = \"engrave\"\ntool = 1\ndepth = 2\ndepth-per-pass = 1\n", &geometry);
+    let cut: f64 =
+        program.motions.iter().filter(|m| m.is_feed() && m.trace().next().is_some()).map(|m| m.length()).sum();
+    assert!((cut - 80.0).abs() < 1e-9, "{cut}");
+    assert!(!is_cut(&program, Point::new(15.0, 5.0), 3.0, -1.0), "the way back to the start is no part of the line");
+}
+
+#[test]
+fn carving_is_as_deep_as_the_shape_is_wide() {
+    let slot = geometry(r#"<rect x="10" y="10" width="40" height="4"/>"#);
+    let (_, program) = run("[[operation]]\nkind = \"v-carve\"\ntool = 2\n", &slot);
+    // 90 degrees: half as deep as wide.
+    let deepest = program.motions.iter().map(cam::Motion::lowest).fold(0.0, f64::min);
+    assert!((deepest + 2.0).abs() < 2e-3, "{deepest}");
+    let (planned, program) = run("[[operation]]\nkind = \"v-carve\"\ntool = 2\nmax-depth = 1\n", &slot);
+    assert!(planned.notices.iter().any(|n| matches!(n, Notice::BottomCleared(_))));
+    let deepest = program.motions.iter().map(cam::Motion::lowest).fold(0.0, f64::min);
+    assert!((deepest + 1.0).abs() < 2e-3, "{deepest}");
+    assert!(is_cut(&program, Point::new(30.0, -12.0), 0.5, -1.0));
+}
+
+#[test]
+fn the_tool_goes_down_in_a_hole_that_was_drilled() {
+    let hole = cam::Hole { center: Point::new(24.0, -30.0), diameter: 4.0, bottom: -6.2 };
+    let geometry = Geometry { holes: vec![hole], ..geometry(PLATE) };
+    let (planned, program) =
+        run("[[operation]]\nkind = \"profile\"\ntool = 1\nthrough = true\nentry = \"predrilled\"\n", &geometry);
+    let plunges = program.motions.iter().filter(|m| m.is_feed() && m.trace().next().is_none() && m.to.z < -6.0);
+    assert!(plunges.clone().any(|m| (m.to.xy() - hole.center).norm() < 1e-9));
+    // The outline lies on the other side of the wall: it is told that no hole leads there.
+    assert!(planned.notices.iter().any(|n| matches!(n, Notice::NoHole(_))));
 }

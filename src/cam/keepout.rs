@@ -70,23 +70,7 @@ fn below(motion: &Motion, top: f64) -> Vec<(Segment, f64)> {
     if motion.trace().next().is_none() {
         return vec![(Segment::line(motion.to.xy(), motion.to.xy()), lowest)];
     }
-    let whole: f64 = motion.trace().map(|s| s.length()).sum();
-    // As fractions of the way in the plane, along which the height changes evenly.
-    let crossing = (top - from) / (to - from);
-    let (first, last) = match () {
-        () if from.max(to) < top => (0.0, 1.0),
-        () if to < from => (crossing, 1.0),
-        () => (0.0, crossing),
-    };
-    let mut before = 0.0;
-    let parts = motion.trace().filter_map(|element| {
-        let share = element.length() / whole;
-        let place = |t: f64| ((t - before) / share).clamp(0.0, 1.0);
-        let (a, b) = (place(first), place(last));
-        before += share;
-        (a < b).then(|| (Segment { start: element.point_at(a), end: element.point_at(b), ..element }, lowest))
-    });
-    parts.collect()
+    motion.trace_below(top).into_iter().map(|part| (part, lowest)).collect()
 }
 
 /// A typed keepout.

@@ -44,6 +44,8 @@ pub enum Notice {
     NoHole(Point),
     /// The path does not come near this corner: it has no relief.
     CornerSkipped(Point),
+    /// A flat bottom is cleared with the tip, in paths so far apart.
+    BottomCleared(f64),
     /// So many tabs found no place on the path that starts here.
     TabsDropped(Point, usize),
     /// So many tabs stand on tight arcs.

@@ -73,7 +73,10 @@ pub fn cut_levels(program: &Program, tools: &ToolTable, stock: &Stock) -> Result
         below = shapes.into_iter().flatten().collect();
         let outlines: Vec<Vec<Point>> =
             below.iter().map(|ring| ring.iter().map(|&[x, y]| Point::new(x, y)).collect()).collect();
-        levels.push(CutLevel { z_mm: z, area_mm2: outlines.iter().map(|ring| area(ring)).sum(), outlines });
+        // The tip of a drill is below the stock, or as good as a point: no level.
+        if !below.is_empty() {
+            levels.push(CutLevel { z_mm: z, area_mm2: outlines.iter().map(|ring| area(ring)).sum(), outlines });
+        }
         floor = z + SAME_LEVEL;
     }
     levels.reverse();
@@ -160,23 +163,7 @@ fn part_below(motion: &Motion, tool: &Tool, floor: f64, z: f64) -> Option<(Vec<S
     if !is_flat {
         return None;
     }
-    // As a fraction of the way, along which the height changes evenly.
-    let crossing = ((z - from) / (to - from)).clamp(0.0, 1.0);
-    let (first, last) = match () {
-        () if from.max(to) <= z => (0.0, 1.0),
-        () if to < from => (crossing, 1.0),
-        () => (0.0, crossing),
-    };
-    let whole: f64 = motion.trace().map(|s| s.length()).sum();
-    let mut before = 0.0;
-    let parts = motion.trace().filter_map(|element| {
-        let share = element.length() / whole;
-        let place = |t: f64| ((t - before) / share).clamp(0.0, 1.0);
-        let (a, b) = (place(first), place(last));
-        before += share;
-        (a < b).then(|| Segment { start: element.point_at(a), end: element.point_at(b), ..element })
-    });
-    let parts: Vec<Segment> = parts.collect();
+    let parts = motion.trace_below(z);
     (!parts.is_empty()).then_some((parts, radius))
 }
 
@@ -236,7 +223,7 @@ mod tests {
         assert_eq!(plunge.iter().map(|l| l.z_mm).collect::<Vec<_>>(), [-3.0]);
         close(plunge[0].area_mm2, 4.0 * PI);
         let v = levels("T1=v90 20mm", "G0 X0 Y0\nG1 Z-3\nG1 X20\nG0 Z5\nG0 X0 Y40\nG1 Z-1\nG1 X20\nG0 Z5");
-        assert_eq!((v[1].z_mm, v[1].area_mm2), (-3.0, 0.0));
+        assert_eq!(v.iter().map(|l| l.z_mm).collect::<Vec<_>>(), [-1.0], "a tip alone is no level");
         close(v[0].area_mm2, 20.0 * 4.0 + 4.0 * PI);
     }
 }

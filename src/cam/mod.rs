@@ -12,6 +12,7 @@
 
 mod against;
 mod certificate;
+mod chamfer;
 mod contour;
 mod entry;
 mod event;
@@ -52,10 +53,12 @@ mod tool;
 mod tool_table;
 mod tool_text;
 mod toolpath;
+mod v_carve;
 mod walk;
 
 pub use against::{Against, AgainstOptions, against};
 pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, certify, statistics};
+pub use chamfer::{Chamfer, ChamferError, chamfer_depth};
 pub use contour::Contour;
 pub use event::{Event, EventKind};
 pub use fit::{ARC_FIT_TOLERANCE, fit_arcs};
@@ -96,3 +99,4 @@ pub use tool::{Tool, ToolShape};
 pub use tool_table::ToolTable;
 pub use tool_text::ParseToolError;
 pub use toolpath::{Move, MoveKind, Settings, Step, Toolpath};
+pub use v_carve::{CARVING_TOLERANCE, VCarve, VCarveError, VCarving, v_carve};

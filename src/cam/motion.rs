@@ -109,6 +109,29 @@ impl Motion {
         }
     }
 
+    /// What of [`Motion::trace`] lies no higher than `z`.
+    pub(super) fn trace_below(&self, z: f64) -> Vec<Segment> {
+        let (from, to) = (self.from.z, self.to.z);
+        // As fractions of the way in the plane, along which the height changes evenly.
+        let crossing = ((z - from) / (to - from)).clamp(0.0, 1.0);
+        let (first, last) = match () {
+            () if from.max(to) <= z => (0.0, 1.0),
+            () if from.min(to) > z => return Vec::new(),
+            () if to < from => (crossing, 1.0),
+            () => (0.0, crossing),
+        };
+        let whole: f64 = self.trace().map(|s| s.length()).sum();
+        let mut before = 0.0;
+        let parts = self.trace().filter_map(|element| {
+            let share = element.length() / whole;
+            let place = |t: f64| ((t - before) / share).clamp(0.0, 1.0);
+            let (a, b) = (place(first), place(last));
+            before += share;
+            (a < b).then(|| Segment { start: element.point_at(a), end: element.point_at(b), ..element })
+        });
+        parts.collect()
+    }
+
     /// Length of the way in space, in millimetres.
     pub fn length(&self) -> f64 {
         let rise = self.to.z - self.from.z;

@@ -13,12 +13,13 @@ mod raster;
 mod relief;
 mod rest;
 mod spurs;
+mod v_carve;
 
 use super::lay::Laying;
 use super::lead::Room;
 use super::{
-    Contour, Corners, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation, OperationKind,
-    Remainder, Settings, Setup, Side, Tool, Toolpath, fit_arcs, offset,
+    ChamferError, Contour, Corners, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation,
+    OperationKind, Remainder, Settings, Setup, Side, Tool, Toolpath, fit_arcs, offset,
 };
 use crate::plane::{Point, Region, Ring, Turn, Vector};
 use crate::rolling::{self, Topology};
@@ -125,14 +126,20 @@ pub enum OperationError {
         diameter: f64,
     },
     /// A cone that cannot make the chamfer.
-    #[error("a chamfer of {width} mm needs a cone with a wider side: this one reaches {reach:.3} mm")]
-    ChamferTooWide {
-        /// What was asked for.
-        width: f64,
-        /// What the tool can do.
-        reach: f64,
+    #[error(transparent)]
+    Chamfer(#[from] ChamferError),
+    /// A cone that would go through the stock.
+    #[error(
+        "the tip would go {depth:.3} mm deep, and the stock is {thickness} mm thick: take a cone with a wider angle, or less width \
+         or max-depth"
+    )]
+    ThroughStock {
+        /// How deep it would go.
+        depth: f64,
+        /// How thick the stock is.
+        thickness: f64,
     },
-    /// A cone that does not fit beside the outline.
+    /// Neither stock nor shapes have a size.
     #[error("facing needs the width and height of the stock, or shapes")]
     NothingToFace,
     /// Carving failed.
@@ -146,6 +153,10 @@ pub enum OperationError {
 /// Where there is nothing to do, or the tool is too large.
 pub fn plan_operation(setup: &Setup, operation: &Operation, geometry: &Geometry) -> Result<Planned, OperationError> {
     let work = Work::new(setup, operation);
+    let goes_around = matches!(operation.kind, OperationKind::Profile { .. } | OperationKind::Pocket { .. });
+    if goes_around && work.tool.diameter > geometry.area.bounds().diagonal() && !geometry.area.is_empty() {
+        return Err(OperationError::TooLarge { diameter: work.tool.diameter });
+    }
     match &operation.kind {
         OperationKind::Profile { side, rest_of: Some(larger), .. } => rest::plan(
             &work,
@@ -163,7 +174,7 @@ pub fn plan_operation(setup: &Setup, operation: &Operation, geometry: &Geometry)
         }
         OperationKind::Drill { peck } => drill::plan(&work, geometry, *peck),
         OperationKind::Engrave => engrave::plan(&work, geometry),
-        OperationKind::VCarve { .. } => Err(OperationError::Carving("carving is not there yet".into())),
+        OperationKind::VCarve { max_depth } => v_carve::plan(&work, geometry, *max_depth),
         OperationKind::Facing { stepover } => facing::plan(&work, geometry, *stepover),
         OperationKind::Chamfer { side, width } => chamfer::plan(&work, geometry, *side, *width),
     }
@@ -234,6 +245,16 @@ impl<'a> Work<'a> {
 
     fn part_side(&self) -> Turn {
         if self.backwards() { Turn::Right } else { Turn::Left }
+    }
+
+    /// Refuses cones whose tip would go through the stock.
+    fn stays_in_stock(&self, depth: f64) -> Result<(), OperationError> {
+        match self.setup.stock.thickness {
+            Some(thickness) if self.cutting.start_depth + depth > thickness => {
+                Err(OperationError::ThroughStock { depth: self.cutting.start_depth + depth, thickness })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The toolpath of `moves`, which begin with a rapid to the safe height.

@@ -17,6 +17,7 @@ mod surface_contact;
 mod surface_report;
 mod surface_samples;
 mod surface_shape;
+mod surface_whole;
 
 pub use compare::compare;
 pub use differ::{Difference, Named, differences};
@@ -27,7 +28,7 @@ pub use report::{Area, Containment, Distance, Kept, Report, SmallestRadius, Topo
 pub use surface::{MOVED, surface};
 pub use surface_report::{
     ContactError, CurvatureBound, SelfIntersections, SurfaceCheckError, SurfaceContainment, SurfaceKept, SurfacePlace,
-    SurfaceReport, SurfaceTopologies, SurfaceTopology, TriangleQuality,
+    SurfaceReport, SurfaceTopologies, SurfaceTopology, SurfaceWhole, TriangleQuality,
 };
 
 /// A place for reports: x and y in the units of the drawing.

@@ -9,6 +9,7 @@ use super::surface_report::{
 };
 use super::surface_samples::{SurfaceSample, samples};
 use super::surface_shape::{angles, is_used, minimum_curvatures, topology, winding_number};
+use super::surface_whole::Pair;
 use crate::mesh::{Point, TriangleMesh, self_intersections};
 use crate::reference::{Operation, Solid, threads};
 
@@ -58,13 +59,17 @@ pub fn surface(
     let moved = samples(output, &normals, moved_face);
     let kept = samples(output, &normals, |f| !moved_face(f));
     let centres = Centres::new(input, &solid, radius);
+    let covered = samples(input, &input.vertex_normals(), |_| true);
+    let outside = threads::map(&covered, |s| result.distance(s.point));
+    let pair = Pair { input, output, solid: &solid, limit, radius };
     let output_pairs = self_intersections(output);
     Ok(SurfaceReport {
         operation,
         radius_units: radius,
         edge_length_units: edge_length,
         contact: contact_error(&centres, &moved, &kept, edge_length, radius),
-        containment: containment([input, output], [&solid, &result], &moved, edge_length),
+        containment: containment([input, output], &solid, &moved, (&covered, &outside), edge_length),
+        whole: pair.look(&covered, &outside, |y| centres.is_free(y), edge_length),
         kept: kept_part(input, output, &centres, radius),
         self_intersections: SelfIntersections {
             input_pairs: self_intersections(input).len(),
@@ -93,9 +98,9 @@ fn validate(mesh: &TriangleMesh, name: &'static str) -> Result<(), SurfaceCheckE
 
 /// A maximum and where it is.
 #[derive(Clone, Copy, Debug, Default)]
-struct Largest {
-    value: f64,
-    place: Option<SurfacePlace>,
+pub(super) struct Largest {
+    pub(super) value: f64,
+    pub(super) place: Option<SurfacePlace>,
 }
 
 impl Largest {
@@ -105,7 +110,7 @@ impl Largest {
         }
     }
 
-    fn of(values: impl Iterator<Item = (f64, Point)>) -> Largest {
+    pub(super) fn of(values: impl Iterator<Item = (f64, Point)>) -> Largest {
         let mut largest = Largest::default();
         values.for_each(|(value, p)| largest.meet(value, p));
         largest
@@ -131,9 +136,13 @@ fn contact_error(
     let rest: f64 = kept.iter().map(|s| s.area).sum();
     let integral = |f: &dyn Fn(f64) -> f64| pairs().map(|(s, e)| s.area * f(e.depth)).sum::<f64>();
     let too_fat = Largest::of(pairs().map(|(s, e)| (-e.depth, s.point)));
-    let unfilled = Largest::of(pairs().map(|(s, e)| (e.depth, s.point)));
+    // Where the search was broken off only what is proved counts.
+    let is_certain = |e: &Contact| e.uncertainty <= 1.01 * RESOLUTION * radius;
+    let proved = |e: &Contact| if is_certain(e) { e.depth } else { (e.depth - e.uncertainty).max(0.0) };
+    let unfilled = Largest::of(pairs().filter(|(_, e)| e.depth > 0.0).map(|(s, e)| (proved(e), s.point)));
+    let in_doubt = Largest::of(pairs().filter(|(_, e)| e.depth > 0.0).map(|(s, e)| (e.depth - proved(e), s.point)));
     let not_moved = Largest::of(kept.iter().zip(&still).map(|(s, e)| (e.depth, s.point)));
-    let certain = errors.iter().filter(|e| e.uncertainty <= 1.01 * RESOLUTION * radius).count();
+    let certain = errors.iter().filter(|e| is_certain(e)).count();
     ContactError {
         mean_over_h: share(integral(&f64::abs), area, 0.0) / h,
         bias_over_h: share(integral(&|e| -e), area, 0.0) / h,
@@ -142,6 +151,8 @@ fn contact_error(
         too_fat_place: too_fat.place,
         unfilled_over_h: unfilled.value / h,
         unfilled_place: unfilled.place,
+        in_doubt_over_h: in_doubt.value / h,
+        in_doubt_place: in_doubt.place,
         unfilled_where_kept_over_h: not_moved.value / h,
         unfilled_where_kept_place: not_moved.place,
         uncertain_where_kept_over_h: still.iter().map(|e| e.uncertainty).fold(0.0, f64::max) / h,
@@ -156,17 +167,17 @@ fn contact_error(
 
 fn containment(
     [input, output]: [&TriangleMesh; 2],
-    [solid, result]: [&Solid; 2],
+    solid: &Solid,
     moved: &[SurfaceSample],
+    (covered, outside): (&[SurfaceSample], &[f64]),
     h: f64,
 ) -> SurfaceContainment {
     let points: Vec<Point> = moved.iter().map(|s| s.point).collect();
     let inside = threads::map(&points, |p| -solid.distance(*p));
     let [below, beyond] = [hollow(input), hollow(output)];
     let sunken = deepest(&inside, &points, |p| winding_number(input, p) + below > 0.5);
-    let points: Vec<Point> = samples(input, &input.vertex_normals(), |_| true).iter().map(|s| s.point).collect();
-    let outside = threads::map(&points, |p| result.distance(*p));
-    let bared = deepest(&outside, &points, |p| winding_number(output, p) + beyond < 0.5);
+    let points: Vec<Point> = covered.iter().map(|s| s.point).collect();
+    let bared = deepest(outside, &points, |p| winding_number(output, p) + beyond < 0.5);
     SurfaceContainment {
         output_violation_units: sunken.value,
         output_violation_over_h: sunken.value / h,
@@ -194,7 +205,7 @@ fn deepest(depths: &[f64], points: &[Point], is_confirmed: impl Fn(Point) -> boo
 const MOST_CONFIRMATIONS: usize = 2000;
 
 /// The bits of a point; minus zero is zero.
-fn bits(p: &Point) -> [u64; 3] {
+pub(super) fn bits(p: &Point) -> [u64; 3] {
     [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits())
 }
 

@@ -22,7 +22,17 @@ use crate::reference::Solid;
 const TOUCH: f64 = 1e-9;
 
 /// Steps of the search from above; most points take four to eight.
-const MOST_STEPS: usize = 40;
+const MOST_STEPS: usize = 60;
+
+/// A step of the search from above goes no farther than this, in radii: where the solid is curved, half-spaces made far away mean little.
+const STRIDE: f64 = 0.7;
+
+/// Where the half-spaces have nothing in common, as in a tube narrower than the ball, the search goes on from the last free centre in
+/// steps half as long, down to this.
+const LEAST_STRIDE: f64 = 0.02;
+
+/// Where no search from a ball that touches finds anything, one begins so many radii away: above the mouth of such a tube.
+const FAR_START: f64 = 2.0;
 
 /// The search from above ends with steps below this, in radii.
 const LAST_STEP: f64 = 1e-7;
@@ -65,7 +75,7 @@ impl<'a> Centres<'a> {
     }
 
     /// Whether a ball about `y` is outside of the solid.
-    fn is_free(&self, y: Point) -> bool {
+    pub(super) fn is_free(&self, y: Point) -> bool {
         !self.solid.hierarchy().is_nearer(y, self.radius * (1.0 - TOUCH)) && self.solid.distance(y) > 0.0
     }
 
@@ -91,10 +101,12 @@ impl<'a> Centres<'a> {
         if self.is_free(x) {
             return Contact { depth: -self.radius, uncertainty: 0.0 };
         }
-        let starts = outward.iter().map(|n| x + n * self.radius);
-        let found =
-            starts.filter_map(|y| self.nearest_around(x, y)).map(|y| (y - x).norm()).fold(f64::INFINITY, f64::min);
-        self.certified(x, found)
+        let search = |away: f64| {
+            let starts = outward.iter().map(|n| x + n * (away * self.radius));
+            starts.filter_map(|y| self.nearest_around(x, y)).map(|y| (y - x).norm()).fold(f64::INFINITY, f64::min)
+        };
+        let found = search(1.0);
+        self.certified(x, if found.is_finite() { found } else { search(FAR_START) })
     }
 
     /// The free centre nearest to `x` that a search from `start` leads to.
@@ -103,18 +115,29 @@ impl<'a> Centres<'a> {
         let mut holding: Vec<u32> = Vec::with_capacity(MOST_HOLDING);
         let mut y = start;
         let mut best: Option<Point> = None;
+        let mut stride = STRIDE;
         for _ in 0..MOST_STEPS {
             let near = self.solid.signed(y, r * (1.0 - TOUCH));
             let is_inside = near.is_some_and(|s| s.distance < 0.0);
             match near {
                 Some(s) if holding.contains(&s.face) => {}
-                Some(s) if holding.len() < MOST_HOLDING => holding.push(s.face),
-                Some(_) => return best,
+                Some(s) => {
+                    if holding.len() == MOST_HOLDING {
+                        self.drop_slackest(y, is_inside, &mut holding);
+                    }
+                    holding.push(s.face);
+                }
                 None if best.is_none_or(|b| (y - x).norm() < (b - x).norm()) => best = Some(y),
                 None => {}
             }
             let spaces: Vec<HalfSpace> = holding.iter().map(|&f| self.half_space(y, f, is_inside)).collect();
-            let Some(next) = nearest_in_all(x, &spaces, 1e-10 * r) else { return best };
+            let Some(next) = nearest_in_all(x, &spaces, 1e-10 * r) else {
+                stride *= 0.5;
+                let Some(free) = best.filter(|_| stride > LEAST_STRIDE) else { return best };
+                holding.clear();
+                y = free;
+                continue;
+            };
             // What does not hold it any more is forgotten.
             let mut slack = spaces.iter().map(|s| -s.lack(next));
             holding.retain(|_| slack.next().is_some_and(|s| s < 0.1 * r));
@@ -122,10 +145,16 @@ impl<'a> Centres<'a> {
             if near.is_none() && step.norm() < LAST_STEP * r {
                 return best;
             }
-            // Where the solid is curved, half-spaces made far away mean little.
-            y += step * (0.7 * r / step.norm()).min(1.0);
+            y += step * (stride * r / step.norm()).min(1.0);
         }
         best
+    }
+
+    /// Forgets the triangle that holds a ball at `y` least.
+    fn drop_slackest(&self, y: Point, is_inside: bool, holding: &mut Vec<u32>) {
+        let lack = |face: u32| self.half_space(y, face, is_inside).lack(y);
+        let least = (0..holding.len()).min_by(|&a, &b| lack(holding[a]).total_cmp(&lack(holding[b])));
+        least.map(|k| holding.swap_remove(k));
     }
 
     /// The half-space of centres that triangle `face` leaves to a ball near `y`: an inner one, as triangles are convex.

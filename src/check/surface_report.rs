@@ -19,6 +19,8 @@ pub struct SurfaceReport {
     pub contact: ContactError,
     /// Whether a closing contains its input, or an opening lies in it.
     pub containment: SurfaceContainment,
+    /// Whether all of it is there, the right way round.
+    pub whole: SurfaceWhole,
     /// What did not move.
     pub kept: SurfaceKept,
     /// Pairs of faces of the output that cross each other.
@@ -45,10 +47,15 @@ pub struct ContactError {
     pub too_fat_over_h: f64,
     /// Where that is.
     pub too_fat_place: Option<SurfacePlace>,
-    /// The farthest that the moved part is inside of the true closing.
+    /// The farthest that the moved part is inside of the true closing, as far as that is proved.
     pub unfilled_over_h: f64,
     /// Where that is.
     pub unfilled_place: Option<SurfacePlace>,
+    /// The most by which some place of the moved part may be farther inside of it than is proved: no ball was found to rest near by, and
+    /// none to be impossible.
+    pub in_doubt_over_h: f64,
+    /// Where that is.
+    pub in_doubt_place: Option<SurfacePlace>,
     /// The farthest that what did not move is inside of the true closing: it should have moved.
     pub unfilled_where_kept_over_h: f64,
     /// Where that is.
@@ -84,6 +91,33 @@ pub struct SurfaceContainment {
     pub input_violation_over_h: f64,
     /// Where it is.
     pub input_place: Option<SurfacePlace>,
+}
+
+/// Whether a result is all there and the right way round.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct SurfaceWhole {
+    /// The farthest that the output is from a place of the input that a ball touches, which is on the surface of the true result.
+    pub missing_units: f64,
+    /// The same in edge lengths.
+    pub missing_over_h: f64,
+    /// Where that is.
+    pub missing_place: Option<SurfacePlace>,
+    /// Both surfaces are closed, and one of them has its solid outside.
+    pub inside_out: bool,
+    /// Faces of the output that lie on the input and face the other way.
+    pub turned_faces: usize,
+    /// Their area, in squares of the edge length.
+    pub turned_area_over_h2: f64,
+    /// The middle of the first of them.
+    pub turned_place: Option<SurfacePlace>,
+    /// Edges with a single face that are not on a border of the input.
+    pub new_border_edges: usize,
+    /// The middle of the first of them.
+    pub new_border_place: Option<SurfacePlace>,
+    /// Faces of the input with the same three places as one before them.
+    pub doubled_faces_in: usize,
+    /// The same in the output.
+    pub doubled_faces_out: usize,
 }
 
 /// What of the input is found in the output with the same bits.

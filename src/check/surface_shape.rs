@@ -47,9 +47,23 @@ impl Sets {
     }
 }
 
+/// Whether a face has the same corner twice: rounding may bring corners together, and what is left has no sides.
+fn is_collapsed([a, b, c]: [u32; 3]) -> bool {
+    a == b || b == c || c == a
+}
+
+/// The edges with a single face.
+pub(super) fn border_edges(mesh: &TriangleMesh) -> Vec<[u32; 2]> {
+    let mut sides = sides(mesh);
+    sides.retain(|side| !is_collapsed(mesh.faces[side.1 as usize / 3]));
+    sides.chunk_by(|a, b| a.0 == b.0).filter(|edge| edge.len() == 1).map(|edge| edge[0].0).collect()
+}
+
 /// Counts vertices, parts and boundaries.
 pub(super) fn topology(mesh: &TriangleMesh) -> SurfaceTopology {
-    let sides = sides(mesh);
+    let mut sides = sides(mesh);
+    sides.retain(|side| !is_collapsed(mesh.faces[side.1 as usize / 3]));
+    let faces = mesh.faces.iter().filter(|face| !is_collapsed(**face)).count();
     let mut parts = Sets::new(mesh.faces.len());
     let mut boundary = Sets::new(mesh.points.len());
     let mut on_boundary = Vec::new();
@@ -74,8 +88,8 @@ pub(super) fn topology(mesh: &TriangleMesh) -> SurfaceTopology {
     SurfaceTopology {
         vertices,
         faces: mesh.faces.len(),
-        euler_characteristic: vertices as i64 - edges + mesh.faces.len() as i64,
-        components: parts.count(0..mesh.faces.len() as u32),
+        euler_characteristic: vertices as i64 - edges + faces as i64,
+        components: parts.count((0u32..).zip(&mesh.faces).filter(|(_, face)| !is_collapsed(**face)).map(|(k, _)| k)),
         boundary_loops: boundary.count(on_boundary.into_iter()),
         nonmanifold_edges,
     }

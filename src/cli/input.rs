@@ -12,20 +12,43 @@ use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, Parts, ReadOptions,
 use crate::plane::{Region, Stretch};
 use crate::units::{DrawingScale, Length};
 
+/// Files larger than this are read by no command.
+const LARGEST_FILE: u64 = u32::MAX as u64;
+
+/// What says no size, as pipes and devices do, may be without end: no more than this is read of it.
+const LARGEST_STREAM: u64 = 1 << 30;
+
 /// The bytes of a file, or of standard input where the name is `-`.
 ///
 /// # Errors
-/// Names the file.
+/// Names the file. Where it is larger than any drawing or mesh, or without end, it is not read to the end.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     if path == Path::new("-") {
-        let mut bytes = Vec::new();
-        std::io::stdin().lock().read_to_end(&mut bytes).context("standard input")?;
-        return Ok(bytes);
+        return read_up_to(std::io::stdin().lock(), LARGEST_STREAM, Path::new("standard input"));
     }
     if path.is_dir() {
         bail!("{}: this is a folder; name a file in it", path.display());
     }
-    std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))
+    let cannot = || format!("{}: cannot be read", path.display());
+    let file = std::fs::File::open(path).with_context(cannot)?;
+    let about = file.metadata().with_context(cannot)?;
+    let most = if about.is_file() { LARGEST_FILE } else { LARGEST_STREAM };
+    if about.len() > most {
+        return Err(too_large(path, most));
+    }
+    read_up_to(file, most, path)
+}
+
+/// All bytes of a stream, of which there may be no more than `most`.
+fn read_up_to(stream: impl std::io::Read, most: u64, path: &Path) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    stream.take(most + 1).read_to_end(&mut bytes).with_context(|| format!("{}: cannot be read", path.display()))?;
+    if bytes.len() as u64 > most { Err(too_large(path, most)) } else { Ok(bytes) }
+}
+
+fn too_large(path: &Path, most: u64) -> anyhow::Error {
+    let gibibytes = most.div_ceil(1 << 30);
+    anyhow::anyhow!("{}: more than {gibibytes} GiB: name a smaller file, or for a mesh decimate it", path.display())
 }
 
 /// The text of a program.
@@ -247,5 +270,18 @@ impl ReadArgs {
             width_mm,
             fonts: self.fonts.clone(),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_no_end_is_read_up_to_a_limit() {
+        let name = Path::new("endless");
+        let error = read_up_to(std::io::repeat(7), 1000, name).unwrap_err();
+        assert!(error.to_string().starts_with("endless: more than"), "{error}");
+        assert_eq!(read_up_to(&[7u8; 1000][..], 1000, name).unwrap(), [7; 1000]);
     }
 }

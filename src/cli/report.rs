@@ -271,7 +271,10 @@ impl MillReport<'_> {
             return line("lost", "nothing".to_owned());
         }
         for (i, feature) in self.lost.iter().take(PLACES_SHOWN).enumerate() {
-            line(if i == 0 { "LOST" } else { "" }, describe(feature, self.job));
+            line(
+                if i == 0 { "LOST" } else { "" },
+                describe(feature, self.job.tool_diameter, self.job.path_radius_mm()),
+            );
         }
         more(line, self.lost.len());
         let fits = |f: &LostFeature| f.width() >= self.job.tool_diameter;
@@ -314,9 +317,10 @@ pub(super) fn why_lost(width: f64, tool_diameter: f64, path_radius: f64) -> Stri
     }
 }
 
-fn describe(feature: &LostFeature, job: &Job) -> String {
+/// What a feature is, and why the tool cannot make it.
+pub(super) fn describe(feature: &LostFeature, tool_diameter: f64, path_radius: f64) -> String {
     let at = |p: &Place| format!("at ({:.3}, {:.3})", p.x, p.y);
-    let why = |width: f64| why_lost(width, job.tool_diameter, job.path_radius_mm());
+    let why = |width: f64| why_lost(width, tool_diameter, path_radius);
     match feature {
         LostFeature::HoleFilled { center, diameter, .. } => {
             format!("hole {diameter:.2} mm wide {}: filled; {}", at(center), why(*diameter))

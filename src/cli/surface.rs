@@ -3,6 +3,7 @@
 mod check;
 mod choose;
 mod cut;
+mod digits;
 mod flow;
 mod offset;
 mod pins;
@@ -203,6 +204,7 @@ impl WorkArgs {
         }
         let format = work::format_of(&target)?;
         let input = work::Input::read(&self.input, self.repair)?;
+        input.warnings().iter().for_each(|warning| output::say(&format!("note: {warning}\n")));
         let states = work::apply(self, &input, steps)?;
         // There is one at least: each run has a last state.
         let Some(done) = states.last() else { bail!("nothing came out") };

@@ -72,7 +72,9 @@ impl CutPlane {
     /// Where the normal has no direction.
     pub fn new(point: Point, normal: Vector) -> Result<CutPlane, CutError> {
         let is_finite = point.iter().chain(normal.iter()).all(|x| x.is_finite());
-        let normal = normal.try_normalize(0.0).filter(|_| is_finite).ok_or(CutError::Normal)?;
+        // By the largest part first: squares of very long and very short ones leave the range of numbers.
+        let normal = (normal / normal.amax()).try_normalize(0.0).filter(|n| is_finite && n.norm() > 0.5);
+        let normal = normal.ok_or(CutError::Normal)?;
         Ok(CutPlane { point, normal })
     }
 

@@ -3,6 +3,9 @@
 use super::fans::part_fans;
 use super::{NONE, Point};
 
+/// What polygons with so many corners repeat is looked at corner by corner elsewhere.
+const SIMPLE: usize = 6;
+
 /// A surface of polygons: triangles, quads and larger faces, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolygonMesh {
@@ -36,6 +39,20 @@ impl PolygonMesh {
     pub fn push(&mut self, polygon: &[u32]) {
         self.corners.extend_from_slice(polygon);
         self.ends.push(self.corners.len() as u32);
+    }
+
+    /// The first polygon that comes back to its corners so often that it is none, and how many vertices they are: corners that
+    /// follow themselves aside, what goes around a part of the plane with n vertices has fewer than 2 n corners: a tree
+    /// has the most, of which both sides are walked along.
+    pub fn first_tangled(&self) -> Option<(usize, usize)> {
+        self.polygons().enumerate().filter(|(_, polygon)| polygon.len() > SIMPLE).find_map(|(k, polygon)| {
+            let mut corners = polygon.to_vec();
+            corners.dedup();
+            let count = corners.len();
+            corners.sort_unstable();
+            corners.dedup();
+            (count > SIMPLE && count > 2 * corners.len()).then_some((k, corners.len()))
+        })
     }
 
     /// How many polygons there are.

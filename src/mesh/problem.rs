@@ -112,6 +112,20 @@ pub enum Problem {
         /// Whether no other polygon is at its edges: only then can it be left out without a crack.
         is_alone: bool,
     },
+    /// Vertices on borders that lie exactly where others do: what looks closed may be open between them.
+    Unwelded {
+        /// The first of them that lies where an earlier one does.
+        vertex: u32,
+        /// How many of them.
+        vertices: u32,
+    },
+    /// Polygons of separate bodies that lie on each other.
+    Coincident {
+        /// One of them.
+        polygon: u32,
+        /// The other one.
+        other: u32,
+    },
     /// Polygons that pass through each other, or one through itself.
     SelfIntersection {
         /// One of them.
@@ -130,7 +144,11 @@ impl Problem {
             | Problem::Unused { .. }
             | Problem::Inconsistent { .. }
             | Problem::ZeroArea { is_alone: true, .. } => Severity::Repairable,
-            Problem::Boundary { .. } | Problem::ZeroArea { .. } | Problem::SelfIntersection { .. } => Severity::Allowed,
+            Problem::Boundary { .. }
+            | Problem::ZeroArea { .. }
+            | Problem::Unwelded { .. }
+            | Problem::Coincident { .. }
+            | Problem::SelfIntersection { .. } => Severity::Allowed,
             Problem::Empty
             | Problem::NoSuchVertex { .. }
             | Problem::NotFinite { .. }
@@ -180,6 +198,16 @@ impl fmt::Display for Problem {
                 write!(f, "the surface has a boundary of {edges} edges at vertex {vertex}: its vertices are pinned")
             }
             Problem::ZeroArea { polygon, .. } => write!(f, "face {polygon} has no area, or a part of it has none"),
+            Problem::Unwelded { vertex, vertices: 1 } => {
+                write!(f, "vertex {vertex}, on a border, lies exactly where another one does: --repair welds them")
+            }
+            Problem::Unwelded { vertices, .. } => write!(
+                f,
+                "{vertices} vertices on borders lie exactly where others do, so that the surface is open there: --repair welds them"
+            ),
+            Problem::Coincident { polygon, other } => {
+                write!(f, "faces {polygon} and {other} of separate bodies lie on each other: unite the bodies first")
+            }
             Problem::SelfIntersection { polygon, other } if polygon == other => {
                 write!(f, "face {polygon} is folded onto itself")
             }

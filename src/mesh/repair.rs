@@ -1,9 +1,11 @@
 //! Surfaces mended where there is no choice to make.
 
+use std::collections::HashSet;
+
 use super::clean::{Worth, shortened, worths};
 use super::topology::{Edges, Joined, ends, have_neighbours, without_area};
 use super::validate::{triangles_of, unusable};
-use super::{PolygonMesh, TriangleMesh};
+use super::{Point, PolygonMesh, TriangleMesh};
 
 /// Something that was mended. Vertices and polygons have the numbers that they had before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +34,13 @@ pub enum Repair {
         /// Which one.
         polygon: u32,
     },
+    /// A vertex on a border that lies exactly where an earlier one does became that one.
+    Welded {
+        /// Which one.
+        vertex: u32,
+        /// The earlier one.
+        to: u32,
+    },
     /// A vertex of no polygon is left out.
     DroppedVertex {
         /// Which one.
@@ -41,7 +50,8 @@ pub enum Repair {
 
 /// A surface without what is [repairable](super::Severity::Repairable), and what was done.
 ///
-/// Faces that are duplicates or degenerate and vertices without faces are dropped, and where neighbours are oriented against
+/// Vertices on borders that lie exactly where others do are welded (those of closed bodies that touch are not), faces that are
+/// duplicates or degenerate and vertices without faces are dropped, and where neighbours are oriented against
 /// each other the smaller part of their component is reversed (of two equal ones that without the first polygon). Nothing
 /// else: everything that is not named keeps its order and its bits. Whether a whole component is inside out is not guessed,
 /// and faces without area are kept where dropping them would open the surface.
@@ -49,8 +59,13 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
     if !unusable(&mesh).is_empty() {
         return (mesh, vec![]);
     }
+    let (mesh, welded) = welded(mesh);
     let mut worths = worths(&mesh);
-    let mut repairs = vec![];
+    let mut repairs = welded;
+    let is_gone: HashSet<u32> = repairs
+        .iter()
+        .filter_map(|r| if let Repair::Welded { vertex, .. } = r { Some(*vertex) } else { None })
+        .collect();
     let whole = triangles_of(&mesh, &worths);
     let have_neighbours = have_neighbours(&whole, &Edges::new(&whole), mesh.polygon_count());
     for polygon in without_area(&whole).into_iter().filter(|k| !have_neighbours[*k as usize]) {
@@ -89,7 +104,9 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
     for (v, p) in mesh.points.iter().enumerate() {
         number[v] = points.len() as u32;
         if !is_used[v] {
-            unused.push(Repair::DroppedVertex { vertex: v as u32 });
+            if !is_gone.contains(&(v as u32)) {
+                unused.push(Repair::DroppedVertex { vertex: v as u32 });
+            }
             continue;
         }
         points.push(*p);
@@ -109,6 +126,47 @@ pub fn repair(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
     }
     repairs.extend(unused);
     (result, repairs)
+}
+
+/// The surface with the vertices of its borders welded that lie at exactly the same place, and which these are. The vertices
+/// remain; no polygon has those that became others.
+fn welded(mesh: PolygonMesh) -> (PolygonMesh, Vec<Repair>) {
+    let mut sides: Vec<[u32; 2]> = Vec::new();
+    for polygon in mesh.polygons() {
+        let n = polygon.len();
+        sides.extend((0..n).map(|k| (polygon[k], polygon[(k + 1) % n])).map(|(a, b)| [a.min(b), a.max(b)]));
+    }
+    sides.sort_unstable();
+    let ends = sides.chunk_by(|a, b| a == b).filter(|edge| edge.len() == 1).flat_map(|edge| edge[0]).collect();
+    let twice = same_places(&mesh.points, ends);
+    if twice.is_empty() {
+        return (mesh, vec![]);
+    }
+    let mut number: Vec<u32> = (0..mesh.points.len() as u32).collect();
+    twice.iter().for_each(|&(vertex, to)| number[vertex as usize] = to);
+    let mut result = PolygonMesh::new(mesh.points.clone());
+    for polygon in mesh.polygons() {
+        result.push(&polygon.iter().map(|&v| number[v as usize]).collect::<Vec<_>>());
+    }
+    (result.colours, result.scalars) = (mesh.colours, mesh.scalars);
+    (result, twice.into_iter().map(|(vertex, to)| Repair::Welded { vertex, to }).collect())
+}
+
+/// Of some vertices those that lie exactly where an earlier one of them does, with the first of these; in order.
+pub(super) fn same_places(points: &[Point], mut vertices: Vec<u32>) -> Vec<(u32, u32)> {
+    // Minus zero is zero.
+    let place = |v: u32| points[v as usize].coords.map(|x| (x + 0.0).to_bits());
+    let key = |v: &u32| {
+        let [x, y, z] = place(*v).into();
+        (x, y, z, *v)
+    };
+    vertices.sort_unstable_by_key(key);
+    vertices.dedup();
+    let groups = vertices.chunk_by(|a, b| place(*a) == place(*b));
+    let mut twice: Vec<(u32, u32)> =
+        groups.flat_map(|group| group[1..].iter().map(|&vertex| (vertex, group[0]))).collect();
+    twice.sort_unstable();
+    twice
 }
 
 /// The polygons that must be reversed for each component to be consistent.

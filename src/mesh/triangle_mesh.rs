@@ -32,8 +32,8 @@ impl TriangleMesh {
 
     /// The volume inside, negative where the surface is inside out.
     pub fn volume(&self) -> f64 {
-        // Away from the origin rounding would grow: from the first vertex.
-        let Some(origin) = self.points.first() else { return 0.0 };
+        // Away from the origin rounding would grow: from the first corner.
+        let Some(origin) = self.faces.first().map(|face| self.points[face[0] as usize]) else { return 0.0 };
         let triangles = (0..self.faces.len()).map(|k| self.triangle(k).map(|p| p - origin));
         triangles.map(|[a, b, c]| a.dot(&b.cross(&c))).sum::<f64>() / 6.0
     }
@@ -43,14 +43,14 @@ impl TriangleMesh {
         (0..self.faces.len()).map(|k| 0.5 * self.area_vector(k).norm()).sum()
     }
 
-    /// The corners of the smallest box around the vertices; nothing where there are none.
+    /// The corners of the smallest box around the faces; nothing where there are none. Vertices without faces do not count.
     pub fn bounds(&self) -> Option<[Point; 2]> {
-        let first = *self.points.first()?;
-        let grow = |[low, high]: [Point; 2], p: &Point| [low.inf(p), high.sup(p)];
-        Some(self.points.iter().fold([first, first], grow))
+        let mut corners = self.faces.as_flattened().iter().map(|&v| self.points[v as usize]);
+        let first = corners.next()?;
+        Some(corners.fold([first, first], |[low, high], p| [low.inf(&p), high.sup(&p)]))
     }
 
-    /// The length of the diagonal of the box around the vertices.
+    /// The length of the diagonal of the box around the faces.
     pub fn diagonal(&self) -> f64 {
         self.bounds().map_or(0.0, |[low, high]| (high - low).norm())
     }

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use super::clean::{Worth, worths};
-use super::intersect::all;
+use super::intersect::{Meeting, all};
+use super::repair::same_places;
 use super::topology::{Edges, Joined, ends, have_neighbours, without_area};
 use super::{Hierarchy, Point, PolygonMesh, Problem, TriangleMesh};
 
@@ -71,6 +72,10 @@ pub(super) fn unusable(mesh: &PolygonMesh) -> Vec<Problem> {
         let missing = corners.iter().filter(|v| **v as usize >= mesh.points.len());
         missing.map(move |&vertex| Problem::NoSuchVertex { polygon, vertex })
     });
+    if let Some((polygon, _)) = mesh.first_tangled() {
+        let vertex = mesh.polygon(polygon)[0];
+        return no_vertex.chain([Problem::Tangled { polygon: polygon as u32, vertex }]).collect();
+    }
     let is_finite = |p: &Point| p.iter().all(|x| x.is_finite());
     let not_finite = (0u32..).zip(&mesh.points).filter(|(_, p)| !is_finite(p));
     no_vertex.chain(not_finite.map(|(vertex, _)| Problem::NotFinite { vertex })).collect()
@@ -89,7 +94,7 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     // Where the corners of triangles at one vertex hang together.
     let mut fans = Joined::new(3 * mesh.faces.len());
     let mut boundaries = Joined::new(mesh.points.len());
-    let mut boundary_edges: Vec<u32> = vec![];
+    let mut boundary_edges: Vec<[u32; 2]> = vec![];
     let mut is_closed = vec![true; polygon_count];
     let mut is_oriented = vec![true; polygon_count];
     let mut inconsistent: Vec<[u32; 2]> = vec![];
@@ -106,7 +111,7 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
             [(_, h)] => {
                 let [a, b] = ends(mesh, h);
                 boundaries.join(a, b, false);
-                boundary_edges.push(a);
+                boundary_edges.push([a, b]);
                 is_closed[parent(h) as usize] = false;
             }
             [(_, g), (_, h)] => {
@@ -136,7 +141,11 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     problems.extend(one_sided.iter().map(|&polygon| Problem::OneSided { polygon }));
     let open = gathered(&is_closed, &mut components);
     inside_out(mesh, &mut components, &open, problems);
-    let mut loops: Vec<u32> = boundary_edges.iter().map(|&v| boundaries.find(v).0).collect();
+    let twice = same_places(&mesh.points, boundary_edges.iter().flat_map(|edge| *edge).collect());
+    if let Some(&(vertex, _)) = twice.first() {
+        problems.push(Problem::Unwelded { vertex, vertices: twice.len() as u32 });
+    }
+    let mut loops: Vec<u32> = boundary_edges.iter().map(|&[v, _]| boundaries.find(v).0).collect();
     loops.sort_unstable();
     let boundary = |edges: &[u32]| Problem::Boundary { vertex: edges[0], edges: edges.len() as u32 };
     problems.extend(loops.chunk_by(|a, b| a == b).map(boundary));
@@ -144,15 +153,23 @@ fn surface(mesh: &TriangleMesh, polygon_count: usize, problems: &mut Vec<Problem
     let zero = |polygon: u32| Problem::ZeroArea { polygon, is_alone: !has_neighbour[polygon as usize] };
     problems.extend(without_area(mesh).into_iter().map(zero));
     let hierarchy = Hierarchy::new(&mesh.points, &mesh.faces);
-    let pairs = all(&hierarchy, MOST_INTERSECTIONS);
-    let mut pairs: Vec<[u32; 2]> = pairs
-        .iter()
-        .map(|&(f, g)| [mesh.parents[f as usize], mesh.parents[g as usize]])
-        .map(|[p, q]| [p.min(q), p.max(q)])
-        .collect();
+    let mut pairs: Vec<(bool, [u32; 2])> = Vec::new();
+    for (f, g, meeting) in all(&hierarchy, MOST_INTERSECTIONS) {
+        let [p, q] = [mesh.parents[f as usize], mesh.parents[g as usize]];
+        let is_flat = match meeting {
+            Meeting::Through => false,
+            // One body that is folded onto itself passes through itself.
+            Meeting::Overlap => components.find(p).0 != components.find(q).0,
+            Meeting::Same => true,
+        };
+        pairs.push((is_flat, [p.min(q), p.max(q)]));
+    }
     pairs.sort_unstable();
     pairs.dedup();
-    problems.extend(pairs.iter().map(|&[polygon, other]| Problem::SelfIntersection { polygon, other }));
+    problems.extend(pairs.iter().map(|&(is_flat, [polygon, other])| match is_flat {
+        true => Problem::Coincident { polygon, other },
+        false => Problem::SelfIntersection { polygon, other },
+    }));
 }
 
 /// The components of which a polygon is marked with false, in order.

@@ -57,9 +57,8 @@ pub fn meshes(pictures: &[(&TriangleMesh, MeshStyle)]) -> Result<Vec<u8>, Previe
     }
     // Vertices that no face has are not seen.
     let used: Vec<Point> = pictures.iter().flat_map(|(mesh, _)| corners(mesh)).collect();
-    let Some([low, high]) = TriangleMesh::new(used.clone(), Vec::new()).bounds() else {
-        return Err(PreviewError::Nothing);
-    };
+    let Some(&first) = used.first() else { return Err(PreviewError::Nothing) };
+    let [low, high] = used.iter().fold([first; 2], |[low, high], p| [low.inf(p), high.sup(p)]);
     let is_finite = used.iter().all(|p| p.coords.iter().all(|x| x.is_finite()));
     if !is_finite || !(high - low).norm().is_finite() {
         return Err(PreviewError::Nothing);

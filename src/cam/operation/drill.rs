@@ -22,7 +22,7 @@ const APPROACH: f64 = 1.0;
 pub(super) fn circle(ring: &Ring) -> Option<(Point, f64)> {
     let bounds = ring.bounds();
     let (center, radius) = (bounds.center(), 0.25 * (bounds.width() + bounds.height()));
-    if ring.len() < 2 || !(radius > 0.0) {
+    if ring.len() < 2 || radius <= 0.0 || radius.is_nan() {
         return None;
     }
     let is_on = |p: Point| ((p - center).norm() - radius).abs() <= ROUNDNESS * radius;

@@ -159,7 +159,17 @@ impl Cut {
     /// What was not done as asked.
     pub(super) fn notices(&self, notices: &[Notice]) -> Vec<Difference> {
         let row = |notice: &Notice| {
+            let bottom = |step: f64| format!("cleared by the tip in paths {step:.2} mm apart");
             let (at, feature, amount, why, gain) = match *notice {
+                Notice::BottomCleared(step) => {
+                    return self.row(
+                        "flat bottom",
+                        None,
+                        bottom(step),
+                        "the letters are wider than the tool reaches".to_owned(),
+                        "a wider tool".to_owned(),
+                    );
+                }
                 Notice::LeadSkipped(p) => (
                     p,
                     "lead",

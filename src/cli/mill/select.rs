@@ -18,7 +18,7 @@ pub(super) fn select(shapes: &Shapes, select: &SelectFile) -> Result<Vec<usize>>
     for (what, words) in [("id", &select.id), ("layer", &select.layer)] {
         let Some(words) = words else { continue };
         let names: HashSet<&str> = all.iter().flat_map(|s| &s.names).map(String::as_str).collect();
-        for word in words.iter().filter(|w| !names.contains(w)) {
+        if let Some(word) = words.iter().find(|w| !names.contains(w)) {
             let mut known: Vec<&str> = names.iter().copied().collect();
             known.sort_unstable();
             let hint = nearest(word, known.into_iter()).map_or(String::new(), |n| format!("; did you mean \"{n}\"?"));

@@ -8,14 +8,17 @@ use super::select::select;
 use super::setup_report::SetupReport;
 use super::{FormatArg, MillArgs, Verdict, keep_page, setup_page, target};
 use crate::cam::{
-    self, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, PathRadius, Planned, Program, Setup,
-    SetupFile, Step, TimeSaved, check_operation, plan_operation, split_operations,
+    self, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, PathRadius, Planned, Program, Remainder,
+    Setup, SetupFile, Side, Step, TimeSaved, check_operation, plan_operation, split_operations,
 };
+use crate::check::{LostFeature, lost_features};
 use crate::cli::{ExitStatus, input, output};
 use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
 use crate::io::svg::Shapes;
 use crate::plane::{Point, Vector};
 use crate::preview::{self, DEFAULT_SIZE, Scene};
+use crate::reference::Operation as ReferenceOperation;
+use crate::units::Radius;
 
 /// A program of the job, as the machine gets it.
 pub(super) struct Written {
@@ -36,6 +39,8 @@ pub(super) struct Done<'a> {
     pub(super) run: Program,
     /// The index of the program that they are from.
     pub(super) program: usize,
+    pub(super) lost: Vec<LostFeature>,
+    pub(super) path_radius: f64,
 }
 
 /// Runs the command for a job file with operations.
@@ -78,7 +83,8 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     let steps = steps(&setup, &planned);
     let written = write(args, &setup, &dialect, options, &steps, &target)?;
     let done = hold_against(&setup, planned, &written)?;
-    let unsafe_travel = beyond_travel(&setup, &written);
+    let mut unsafe_travel = beyond_travel(&setup, &written);
+    unsafe_travel.extend(collisions(&setup, &written));
     let saved = time_saved(&setup, &dialect, options, &done, &written, &drawn);
 
     let mut contents: Vec<(PathBuf, Vec<u8>)> =
@@ -107,6 +113,7 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         setup: &setup,
         dialect: &dialect.name,
         done: &done,
+        accept_losses: args.accept_losses,
         written: &written,
         unsafe_travel: &unsafe_travel,
         saved: saved.as_ref(),
@@ -275,9 +282,29 @@ fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]
         .map(|((operation, planned), (program, run))| {
             let tool = setup.tool_of(operation);
             let check = check_operation(&run, operation, &planned, tool, setup.stock.top, &setup.rig.limits);
-            Done { operation, planned, check, run, program }
+            let acceleration = setup.rig.limits.acceleration;
+            let path_radius = operation.cutting.path_radius_mm(acceleration[0].min(acceleration[1]));
+            let lost = lost(operation, &planned, tool.radius() + path_radius);
+            Done { operation, planned, check, lost, path_radius, run, program }
         })
         .collect())
+}
+
+/// What the tool cannot make of the shapes, corners aside.
+fn lost(operation: &Operation, planned: &Planned, radius: f64) -> Vec<LostFeature> {
+    let is_whole = match operation.kind {
+        OperationKind::Profile { side, rest_of: None, .. } => side != Side::On,
+        OperationKind::Pocket { rest_of: None, .. } => true,
+        _ => false,
+    };
+    let (Some(keep), Ok(radius)) = (planned.keep.as_ref().filter(|_| is_whole), Radius::new(radius)) else {
+        return Vec::new();
+    };
+    let closing = match keep.remainder {
+        Remainder::Inside => ReferenceOperation::Close,
+        Remainder::Outside => ReferenceOperation::Open,
+    };
+    lost_features(&keep.part, &keep.kept, radius, closing)
 }
 
 /// Which axes would travel farther than the machine can.
@@ -294,6 +321,40 @@ fn beyond_travel(setup: &Setup, written: &[Written]) -> Vec<String> {
         .filter(|(_, axis)| span(*axis) > travel[*axis])
         .map(|(name, axis)| format!("{name} travels {:.1} mm, and the machine {:.1} mm", span(axis), travel[axis]))
         .collect()
+}
+
+/// The first motion of every program that enters a keepout.
+fn collisions(setup: &Setup, written: &[Written]) -> Vec<String> {
+    let radius = |number: u32| {
+        let named = setup.tools.iter().find(|t| t.number == number);
+        // A program of one tool does not name it.
+        named.map_or_else(|| setup.tools.iter().map(|t| t.radius()).fold(0.0, f64::max), |t| t.radius())
+    };
+    let mut found = Vec::new();
+    for program in written {
+        for (number, keepout) in setup.keepouts.iter().enumerate() {
+            let entered = program.program.motions.iter().find_map(|m| {
+                // Where the machine comes from is not known.
+                let (depth, at) = keepout.entered_by(m, radius(m.tool)).filter(|_| m.line > first_travel(program))?;
+                Some((m.line, depth, at))
+            });
+            if let Some((line, depth, at)) = entered {
+                found.push(format!(
+                    "{}: line {line} takes the tool {depth:.2} mm into keepout {} at ({:.2}, {:.2}): move the clamp, or the part",
+                    program.path.display(),
+                    number + 1,
+                    at.x,
+                    at.y
+                ));
+            }
+        }
+    }
+    found
+}
+
+/// The line of the first travel, which starts at an unknown place.
+fn first_travel(program: &Written) -> usize {
+    program.program.motions.iter().find(|m| m.trace().next().is_some()).map_or(0, |m| m.line)
 }
 
 fn draw(setup: &Setup, written: &Written) -> Result<Vec<u8>> {

@@ -4,13 +4,10 @@ use super::differences::{Cut, merged};
 use super::page::{file_name, finding};
 use super::setup::{Done, Written};
 use super::setup_report::{SetupReport, loose_part};
-use crate::cam::{OperationKind, Remainder, Setup, Side, uncut};
-use crate::check::{LostFeature, lost_features};
+use crate::cam::{OperationKind, Remainder, Setup, uncut};
 use crate::cli::report::{GOUGE_LIMIT, Verdict};
 use crate::plane::{Region, Ring};
 use crate::preview::{Difference, Outline, Page, PageOperation, PageProgram, PageTool};
-use crate::reference;
-use crate::units::Radius;
 
 /// The page, with the pictures of the programs in their order, where there are any.
 pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> String {
@@ -103,7 +100,6 @@ fn outlines(done: &[Done]) -> Vec<Outline> {
 fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
     let (operation, check) = (done.operation, &done.check);
     let tool = setup.tool_of(operation);
-    let acceleration = setup.rig.limits.acceleration[0].min(setup.rig.limits.acceleration[1]);
     let later = setup.operations.iter().find(|o| {
         let rest = match o.kind {
             OperationKind::Profile { rest_of, .. } | OperationKind::Pocket { rest_of, .. } => rest_of,
@@ -114,13 +110,12 @@ fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
     let cut = Cut {
         operation: check.label.clone(),
         diameter: tool.diameter,
-        path_radius: operation.cutting.path_radius_mm(acceleration),
+        path_radius: done.path_radius,
         followed_by: later.map(|o| o.label.clone()),
     };
     let mut rows = Vec::new();
     rows.extend(check.gouge.filter(|g| g.depth_mm > GOUGE_LIMIT).map(|g| cut.gouge(&g)));
-    let lost = lost(done, cut.path_radius);
-    rows.extend(cut.lost(&lost));
+    rows.extend(cut.lost(&done.lost));
     let is_held = !done.planned.tabs.is_empty() || operation.cutting.onion_skin.is_some();
     // Tabs stand where the tool goes around: they are no corners that it does not reach.
     let left = match (&operation.kind, &done.planned.keep) {
@@ -131,26 +126,8 @@ fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
         }
         _ => None,
     };
-    rows.extend(left.iter().flat_map(|u| cut.uncut(u, &lost)));
+    rows.extend(left.iter().flat_map(|u| cut.uncut(u, &done.lost)));
     rows.extend(cut.islands(&check.islands));
     rows.extend(cut.notices(&done.planned.notices));
     rows
-}
-
-/// Features that the tool does not reach, of operations that cut along whole outlines.
-fn lost(done: &Done, path_radius: f64) -> Vec<LostFeature> {
-    let (OperationKind::Profile { rest_of: None, .. } | OperationKind::Pocket { rest_of: None, .. }, Some(keep)) =
-        (&done.operation.kind, &done.planned.keep)
-    else {
-        return Vec::new();
-    };
-    if matches!(done.operation.kind, OperationKind::Profile { side: Side::On, .. }) {
-        return Vec::new();
-    }
-    let operation = match keep.remainder {
-        Remainder::Inside => reference::Operation::Close,
-        Remainder::Outside => reference::Operation::Open,
-    };
-    let radius = Radius::new(keep.distance + path_radius);
-    radius.map_or(Vec::new(), |radius| lost_features(&keep.part, &keep.kept, radius, operation))
 }

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::setup::{Done, Written, at};
 use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, estimate};
-use crate::cli::report::{GOUGE_LIMIT, Verdict};
+use crate::cli::report::{GOUGE_LIMIT, Verdict, describe};
 use crate::cli::time_words::{minutes, sharp, time_saved};
 use crate::gcode::Severity;
 
@@ -19,6 +19,7 @@ pub(super) struct SetupReport<'a> {
     pub(super) setup: &'a Setup,
     pub(super) dialect: &'a str,
     pub(super) done: &'a [Done<'a>],
+    pub(super) accept_losses: bool,
     pub(super) written: &'a [Written],
     pub(super) unsafe_travel: &'a [String],
     /// Against paths with sharp inside corners; `None` where nothing is rounded, or they cannot be planned.
@@ -41,7 +42,7 @@ impl SetupReport<'_> {
     pub(super) fn failures(&self) -> Vec<String> {
         let mut failures = Vec::new();
         for done in self.done {
-            let words = words(done, self.setup).failures.into_iter();
+            let words = words(done, self.setup, self.accept_losses).failures.into_iter();
             failures.extend(words.map(|f| format!("{}: {f}", done.check.label)));
         }
         failures.extend(self.unsafe_travel.iter().cloned());
@@ -56,7 +57,7 @@ impl SetupReport<'_> {
 
     /// Whether an operation does what was asked.
     pub(super) fn is_good(&self, done: &Done) -> bool {
-        words(done, self.setup).failures.is_empty()
+        words(done, self.setup, self.accept_losses).failures.is_empty()
     }
 
     /// Seconds that all programs take.
@@ -75,7 +76,8 @@ impl SetupReport<'_> {
         for done in self.done {
             let check = &done.check;
             let gouge = check.gouge.map_or("-".to_owned(), |g| format!("{:.4}", g.depth_mm.max(0.0)));
-            let verdict = if words(done, self.setup).failures.is_empty() { "good" } else { "FAILED" };
+            let verdict =
+                if words(done, self.setup, self.accept_losses).failures.is_empty() { "good" } else { "FAILED" };
             let label: String = check.label.chars().take(23).collect();
             let _ = writeln!(
                 text,
@@ -92,7 +94,7 @@ impl SetupReport<'_> {
             let _ = writeln!(text, "{:<24}{}", "time saved", time_saved(saved));
         }
         for done in self.done {
-            let words = words(done, self.setup);
+            let words = words(done, self.setup, self.accept_losses);
             for failure in words.failures {
                 let _ = writeln!(text, "FAILED  {}: {failure}", done.check.label);
             }
@@ -123,7 +125,7 @@ impl SetupReport<'_> {
             .done
             .iter()
             .map(|done| {
-                let words = words(done, self.setup);
+                let words = words(done, self.setup, self.accept_losses);
                 json!({
                     "check": done.check,
                     "line": done.operation.line,
@@ -158,7 +160,7 @@ impl SetupReport<'_> {
     }
 }
 
-fn words(done: &Done, setup: &Setup) -> Words {
+fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
     let (check, planned) = (&done.check, &done.planned);
     let mut failures = Vec::new();
     let mut notes = Vec::new();
@@ -172,6 +174,10 @@ fn words(done: &Done, setup: &Setup) -> Words {
     }
     if check.passes[0] > check.passes[1] {
         failures.push(format!("{} passes were asked for, and the program has {}", check.passes[0], check.passes[1]));
+    }
+    for feature in &done.lost {
+        let words = describe(feature, setup.tool_of(done.operation).diameter, done.path_radius);
+        if accept_losses { &mut notes } else { &mut failures }.push(words);
     }
     for island in &check.islands {
         failures
@@ -209,6 +215,7 @@ fn words(done: &Done, setup: &Setup) -> Words {
             Notice::CornerSkipped(p) => {
                 notes.push(format!("the tool does not come near the corner at {}: it stays round", at(p)))
             }
+            Notice::BottomCleared(step) => notes.push(format!("where the letters are wider than the tool reaches, the tip clears the bottom in paths {step:.2} mm apart")),
             Notice::TabsDropped(p, count) => failures.push(format!(
                 "{count} tabs find no place on the outline at {}: ask for fewer or narrower ones",
                 at(p)

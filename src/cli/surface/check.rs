@@ -6,7 +6,8 @@ use anyhow::{Context as _, Result};
 use clap::Args;
 
 use super::MeshLength;
-use super::work::read_polygons;
+use super::digits::{Places, count, number};
+use super::work::{keep_edge, keep_radius, keep_size, longest_edge, read_polygons};
 use crate::check::{self, SurfacePlace, SurfaceReport};
 use crate::cli::check::{FormatArg, OperationArg};
 use crate::cli::{ExitStatus, output};
@@ -27,11 +28,11 @@ pub(super) struct SurfaceCheckArgs {
     /// What was done to the input
     #[arg(long, value_enum, default_value = "close")]
     op: OperationArg,
-    /// The edge length that errors are told in; a sixth of the radius unless given
+    /// The edge length that errors are told in; a sixth of the radius, and at most a fortieth of the diagonal, unless given
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     edge_length: Option<MeshLength>,
     /// Largest accepted distance from the true result, in edge lengths
-    #[arg(long, value_name = "NUMBER", default_value_t = 1.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", default_value = "1", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: f64,
     /// Judge only what moved. Without it, what was left undone where nothing moved counts as well: a result in which nothing was done
     /// fails. For results with pins, regions or radii that vary, where places stay on purpose. (Where the
@@ -43,6 +44,13 @@ pub(super) struct SurfaceCheckArgs {
     format: FormatArg,
 }
 
+/// `--tolerance`.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let is_tolerance = |x: &f64| x.is_finite() && *x > 0.0;
+    let found = text.trim().parse().ok().filter(is_tolerance);
+    found.ok_or_else(|| "it must be a finite number above zero: 1 is an edge length".to_owned())
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -51,13 +59,17 @@ pub(super) fn run(args: &SurfaceCheckArgs) -> Result<ExitStatus> {
     let [input, result] = [&args.input, &args.output].map(|path| read_polygons(path).map(|mesh| mesh.triangulated()));
     let (input, result) = (input?, result?);
     let diagonal = input.diagonal();
+    keep_size(&args.input, diagonal)?;
+    keep_size(&args.output, result.diagonal())?;
     let radius = args.radius.on(diagonal);
-    let edge = args.edge_length.map_or(radius / 6.0, |e| e.on(diagonal));
+    keep_radius(&args.input, radius, diagonal)?;
+    let edge = args.edge_length.map_or((radius / 6.0).min(longest_edge(diagonal)), |e| e.on(diagonal));
+    keep_edge(edge, radius, diagonal)?;
     let report = check::surface(&input, &result, radius, args.op.into(), edge)
         .with_context(|| format!("{} and {}", args.input.display(), args.output.display()))?;
     let failures = failures(&report, args);
     match args.format {
-        FormatArg::Text => output::print(&lines(&report, args, &failures))?,
+        FormatArg::Text => output::print(&lines(&report, args, &failures, Places::on(diagonal)))?,
         FormatArg::Json => {
             let judged = Judged { passed: failures.is_empty(), failures: &failures, report: &report };
             output::print(&(serde_json::to_string_pretty(&judged)? + "\n"))?;
@@ -77,9 +89,16 @@ struct Judged<'a> {
 
 /// Why the result does not pass.
 fn failures(report: &SurfaceReport, args: &SurfaceCheckArgs) -> Vec<&'static str> {
-    let (contact, crossings) = (&report.contact, &report.self_intersections);
+    let SurfaceReport { contact, containment, whole, self_intersections: crossings, .. } = report;
+    let (before, after) = (&report.topology.input, &report.topology.output);
+    // What has borders has no inside that all of the input could lie in.
+    let is_closed = before.boundary_loops == 0;
     let reasons = [
         (contact.largest_over_h > args.tolerance, "what moved is off"),
+        (
+            contact.in_doubt_over_h > args.tolerance,
+            "where it moved a gap is too nearly as wide as the ball to tell whether it is filled",
+        ),
         (
             contact.unfilled_where_kept_over_h > args.tolerance && !args.moved_only,
             "something was left undone where nothing moved (meant so, by pins or regions? --moved-only judges only what moved)",
@@ -88,20 +107,32 @@ fn failures(report: &SurfaceReport, args: &SurfaceCheckArgs) -> Vec<&'static str
             contact.uncertain_where_kept_over_h > args.tolerance && !args.moved_only,
             "where nothing moved a gap is too nearly as wide as the ball to tell whether something was left undone",
         ),
-        (report.containment.output_violation_over_h > args.tolerance, "containment is violated"),
+        (containment.output_violation_over_h > args.tolerance, "containment is violated"),
+        (
+            containment.input_violation_over_h > args.tolerance && is_closed && whole.missing_over_h <= args.tolerance,
+            "part of the input is not covered",
+        ),
+        (whole.missing_over_h > args.tolerance, "part of the surface that had to stay is missing"),
+        (whole.inside_out, "the result is inside out"),
+        (
+            whole.turned_area_over_h2 > args.tolerance * args.tolerance && !whole.inside_out,
+            "faces that did not move are turned over",
+        ),
+        (whole.new_border_edges > 0, "there are borders where the input has none"),
+        (whole.doubled_faces_out > whole.doubled_faces_in, "faces are there twice"),
+        (
+            after.nonmanifold_edges > before.nonmanifold_edges,
+            "more edges than before are not between two faces that run alike",
+        ),
         (crossings.output_pairs > crossings.input_pairs, "more faces cross each other than before"),
     ];
     reasons.into_iter().filter(|(holds, _)| *holds).map(|(_, why)| why).collect()
 }
 
-/// A place in words, where there is one.
-fn at(place: Option<SurfacePlace>) -> String {
-    place.map_or(String::new(), |[x, y, z]| format!(" at ({x:.4}, {y:.4}, {z:.4})"))
-}
-
 /// The report for people.
-fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> String {
-    let SurfaceReport { contact: c, containment, kept, quality, curvature, .. } = report;
+fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str], places: Places) -> String {
+    let SurfaceReport { contact: c, containment, whole, kept, quality, curvature, .. } = report;
+    let at = |place: Option<SurfacePlace>| place.map_or(String::new(), |place| format!(" at {}", places.show(place)));
     let (before, after) = (&report.topology.input, &report.topology.output);
     // An opening is measured as the closing of what is around the solid.
     let [fat, unfilled, within, without] = match report.operation {
@@ -112,7 +143,9 @@ fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> 
     let mut lines = vec![
         format!(
             "h is {} and the radius {}; {} h are tolerated",
-            report.edge_length_units, report.radius_units, args.tolerance
+            number(report.edge_length_units),
+            number(report.radius_units),
+            args.tolerance
         ),
         format!(
             "contact error where it moved: {:.4} h in the mean, at most {:.3} h {fat}{} and {:.3} h {unfilled}{}; {:.1} % of the area moved",
@@ -122,7 +155,10 @@ fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> 
             c.unfilled_over_h,
             at(c.unfilled_place),
             100.0 * c.moved_area_share.abs()
-        ),
+        ) + &match c.in_doubt_place {
+            Some(place) => format!("; cannot tell to {:.3} h at {}", c.in_doubt_over_h, places.show(place)),
+            None => String::new(),
+        },
         format!(
             "left undone where nothing moved: at most {:.3} h{}, known to {:.3} h{}",
             c.unfilled_where_kept_over_h,
@@ -138,13 +174,23 @@ fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> 
             at(containment.input_place)
         ),
         format!(
-            "kept bit for bit: {} of {} vertices ({} of the {} that need not move) and {} of {} triangles",
+            "what had to stay: the result is at most {:.3} h away from it{}; {} over{}, {}{}, {} twice",
+            whole.missing_over_h,
+            at(whole.missing_place),
+            count(whole.turned_faces, "face is turned", "faces are turned"),
+            at(whole.turned_place),
+            count(whole.new_border_edges, "new border edge", "new border edges"),
+            at(whole.new_border_place),
+            count(whole.doubled_faces_out, "face is there", "faces are there")
+        ),
+        format!(
+            "kept bit for bit: {} of {} ({} of the {} that need not move) and {} of {}",
             kept.vertices_found,
-            kept.input_vertices,
+            count(kept.input_vertices, "vertex", "vertices"),
             kept.still_vertices_found,
             kept.still_vertices,
             kept.faces_found,
-            kept.input_faces
+            count(kept.input_faces, "triangle", "triangles")
         ),
     ];
     if quality.moved_faces > 0 {
@@ -161,8 +207,8 @@ fn lines(report: &SurfaceReport, args: &SurfaceCheckArgs, failures: &[&str]) -> 
         // A closing bounds the curvature from below.
         let sign = if report.operation == Operation::Close { 1.0 } else { -1.0 };
         lines.push(format!(
-            "curvature of {} vertices that moved: {:.2} % beyond 1.1/r, {:.2} % beyond 1.5/r, the farthest {:.2}/r ({:.0}/r is the bound)",
-            curvature.moved_vertices,
+            "curvature of {} that moved: {:.2} % beyond 1.1/r, {:.2} % beyond 1.5/r, the farthest {:.2}/r ({:.0}/r is the bound)",
+            count(curvature.moved_vertices, "vertex", "vertices"),
             100.0 * curvature.share_below_1_1,
             100.0 * curvature.share_below_1_5,
             sign * curvature.least_times_r,

@@ -4,9 +4,10 @@ use anyhow::{Context as _, Result};
 use indicatif::ProgressBar;
 
 use super::MethodArg;
+use super::digits::count;
 use super::flow::{self, PIN_EASE};
 use super::pins::Field;
-use crate::flow::{FlownSurface, Obstacle, OnContact, SurfaceFlow, SurfaceSettings};
+use crate::flow::{FlownSurface, Obstacle, OnContact, Status, SurfaceFlow, SurfaceSettings};
 use crate::mesh::{Hierarchy, NONE, Point, TriangleMesh, self_intersections, self_intersections_of};
 use crate::rolling::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Trouble, close_surface, land_surface};
 
@@ -14,11 +15,22 @@ use crate::rolling::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Tr
 /// unmoved is better than what is rough.
 const MOST_OFF: f64 = 0.05;
 
+/// A flow that is tried where direct left something undone is given up after so many moves of a vertex, and so many more for each
+/// vertex of the input: some seconds for small meshes.
+const LEAST_MOVES: usize = 200_000;
+const MOVES_PER_VERTEX: usize = 100;
+
+/// A step counts as so many moves at least.
+const LEAST_STEP: usize = 100;
+
 /// Which method was used, and why.
 #[derive(Clone, Debug, serde::Serialize)]
 pub(super) struct Choice {
     pub used: MethodArg,
+    /// What was found, with figures.
     pub because: String,
+    /// The same in a sentence for people.
+    pub summary: String,
 }
 
 /// A closed surface, and how it came about.
@@ -43,16 +55,39 @@ pub(super) fn close(
     let options =
         SurfaceOptions { radius: &*field.radius, pin_distance: &*field.pin_distance, edge, threads: threads() };
     let direct = close_surface(mesh, &options)?;
-    let chosen = |surface, used, because: String| Chosen { surface, choice: Choice { used, because } };
+    let chosen = |surface, used, because: &str, summary: &str| {
+        let choice = Choice { used, because: because.to_owned(), summary: summary.to_owned() };
+        Chosen { surface, choice }
+    };
     if method == MethodArg::Direct {
-        return Ok(chosen(direct, MethodArg::Direct, "it was asked for".to_owned()));
+        return Ok(chosen(
+            direct,
+            MethodArg::Direct,
+            "it was asked for",
+            "the direct result is written, as was asked for",
+        ));
     }
     let crossings = new_crossings(mesh, &direct);
     if direct.conflicts.is_empty() && crossings == 0 {
-        return Ok(chosen(direct, MethodArg::Direct, "it left nothing undone".to_owned()));
+        let summary = "the direct result is written, with nothing left undone";
+        return Ok(chosen(direct, MethodArg::Direct, "it left nothing undone", summary));
     }
+    let left = format!("leaves what is around {}", count(direct.conflicts.len(), "place", "places"));
     bar.set_message("flowing, as not all could be done directly");
-    let flown = flow_to_the_ball(mesh, field, edge)?;
+    let Some(flown) = flow_to_the_ball(mesh, field, edge)? else {
+        let because =
+            format!("direct leaves what is around {} places undone, the flow takes too long", direct.conflicts.len());
+        let too_long = "that of a flow takes long and was given up (--method flow goes on as long as it takes)";
+        if crossings == 0 {
+            let summary = format!("the direct result is written, which {left} as it was; {too_long}");
+            return Ok(chosen(direct, MethodArg::Direct, &because, &summary));
+        }
+        let summary = format!("the direct result would pass through itself, and {too_long}: neither is written");
+        // A place that would have moved stands for all.
+        let moved = direct.points.iter().zip(&direct.origins).find(|(_, origin)| **origin == NONE);
+        let survey = Survey { off: moved.map(|(p, _)| *p).into_iter().collect(), ..Survey::default() };
+        return Ok(chosen(unmoved(mesh, direct.conflicts, &survey), MethodArg::Direct, &because, &summary));
+    };
     let roller = Roller::new(mesh)?;
     let look = |surface: &ClosedSurface, ease: f64| {
         let result = TriangleMesh::new(surface.points.clone(), surface.faces.clone());
@@ -83,29 +118,47 @@ pub(super) fn close(
     }
     if crossings > 0 && !is_better {
         let because = format!("direct leaves {direct_says}, the flow {flow_says}: nothing was moved");
-        return Ok(chosen(unmoved(mesh, direct.conflicts, &by_direct), MethodArg::Direct, because));
+        let summary =
+            "the direct result would pass through itself, and that of a flow is no better: neither is written";
+        return Ok(chosen(unmoved(mesh, direct.conflicts, &by_direct), MethodArg::Direct, &because, summary));
     }
     Ok(if is_better {
         let conflicts = by_flow.off.iter().map(|&place| Conflict { place, trouble: Trouble::Lost }).collect();
         let surface = ClosedSurface { conflicts, error: by_flow.largest, ..flown };
-        chosen(surface, MethodArg::Flow, format!("it leaves {flow_says}; direct {direct_says}"))
+        let summary = format!(
+            "the result of a flow is written, as the direct one {left} as it was; the flow {}",
+            match by_flow.off.len() {
+                0 => "leaves nothing undone".to_owned(),
+                n => format!("is off in {}", count(n, "place", "places")),
+            }
+        );
+        chosen(surface, MethodArg::Flow, &format!("it leaves {flow_says}; direct {direct_says}"), &summary)
     } else {
-        chosen(direct, MethodArg::Direct, format!("it leaves {direct_says}; the flow {flow_says}"))
+        let summary = format!("the direct result is written, which {left} as it was; that of a flow is no better");
+        chosen(direct, MethodArg::Direct, &format!("it leaves {direct_says}; the flow {flow_says}"), &summary)
     })
 }
 
-/// The closing as far as the flow along the surface gets that lands where the ball touches and never passes through itself.
-fn flow_to_the_ball(mesh: &TriangleMesh, field: &Field, edge: f64) -> Result<ClosedSurface> {
+/// The closing as far as the flow along the surface gets that lands where the ball touches and never passes through itself; nothing
+/// where that takes too long.
+fn flow_to_the_ball(mesh: &TriangleMesh, field: &Field, edge: f64) -> Result<Option<ClosedSurface>> {
     let settings = SurfaceSettings { on_contact: OnContact::Freeze, ..SurfaceSettings::new(edge) };
     let space = flow::space(field, Some(Roller::new(mesh)?));
     let mut flowing = SurfaceFlow::new(mesh, Obstacle::CLOSING, space, &settings).context("the flow")?;
-    flowing.run(f64::INFINITY);
+    let most = LEAST_MOVES + MOVES_PER_VERTEX * mesh.points.len();
+    let mut moves = 0;
+    while flowing.step(f64::INFINITY) == Status::Going {
+        moves += flowing.last_step().0.max(LEAST_STEP);
+        if moves > most {
+            return Ok(None);
+        }
+    }
     let FlownSurface { points, origins, faces, parents } = flowing.result();
     let flown = ClosedSurface { points, origins, faces, parents, ..ClosedSurface::default() };
     // Near pins the flow has its own radius.
     let pin_distance = |p| PIN_EASE * (field.pin_distance)(p);
     let options = SurfaceOptions { radius: &*field.radius, pin_distance: &pin_distance, edge, threads: threads() };
-    Ok(land_surface(mesh, &flown, &options)?)
+    Ok(Some(land_surface(mesh, &flown, &options)?))
 }
 
 /// How many pairs of faces pass through each other where none did before.

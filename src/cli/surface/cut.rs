@@ -6,11 +6,12 @@ use std::str::FromStr;
 use anyhow::{Context as _, Result, bail};
 use clap::Args;
 
+use super::digits::{count, number};
 use super::pins::numbers;
 use super::work::{Input, format_of};
 use crate::cli::check::FormatArg;
 use crate::cli::{ExitStatus, output};
-use crate::io::mesh as files;
+use crate::io::mesh::{self as files, MeshFormat};
 use crate::mesh::{Cap, CutPlane, NONE, Point, Vector, cut};
 
 /// The arguments.
@@ -98,7 +99,7 @@ pub(super) fn run(args: &CutArgs) -> Result<ExitStatus> {
         open_ends: left.open_ends,
         volume_in: input.triangles.volume(),
         volume_out: left.mesh.triangulated().volume(),
-        remarks: input.remarks(false),
+        remarks: input.all_remarks(format != MeshFormat::Stl),
     };
     match args.format {
         FormatArg::Text => output::say(&report.lines(args.open)),
@@ -116,10 +117,16 @@ impl Report {
         text += &match self.cap_triangles {
             _ if self.faces_kept == self.faces_in => "note: the plane cuts nothing off\n".to_owned(),
             0 if is_open => "left open where it was cut\n".to_owned(),
-            n => format!("{n} triangles in the plane close it; volume {} of {}\n", self.volume_out, self.volume_in),
+            n => format!(
+                "{} it; volume {} of {}\n",
+                count(n, "triangle in the plane closes", "triangles in the plane close"),
+                number(self.volume_out),
+                number(self.volume_in)
+            ),
         };
         if self.open_ends > 0 {
-            text += &format!("note: {} pieces of the cut end at borders of the mesh and got no cap\n", self.open_ends);
+            let pieces = count(self.open_ends, "piece of the cut ends", "pieces of the cut end");
+            text += &format!("note: {pieces} at borders of the mesh and got no cap\n");
         }
         self.remarks.iter().for_each(|remark| text += &format!("note: {remark}\n"));
         text

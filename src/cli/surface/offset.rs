@@ -7,10 +7,11 @@ use anyhow::{Context as _, Result, bail};
 use clap::Args;
 
 use super::MeshLength;
+use super::digits::{Places, count, number};
 use super::work::{Input, format_of};
 use crate::cli::check::FormatArg;
 use crate::cli::{ExitStatus, output};
-use crate::io::mesh as files;
+use crate::io::mesh::{self as files, MeshFormat};
 use crate::mesh::{Point, PolygonMesh, Thickness, Vector, offset, offset_part, self_intersections};
 
 /// The arguments.
@@ -79,6 +80,8 @@ struct Report {
     /// A corner of the first of them, before it is moved.
     first_turned: Option<[f64; 3]>,
     remarks: Vec<String>,
+    #[serde(skip)]
+    places: Places,
 }
 
 /// Runs the command.
@@ -109,8 +112,10 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
     let distance = args.distance.sign * args.distance.length.on(diagonal);
     if distance.abs() > FARTHEST * diagonal {
         bail!(
-            "a distance of {distance:e} on a mesh whose box has a diagonal of {diagonal}: give one up to {:e}",
-            FARTHEST * diagonal
+            "--distance: {} on a mesh whose box has a diagonal of {}: give one up to {}",
+            number(distance),
+            number(diagonal),
+            number(FARTHEST * diagonal)
         );
     }
     let thickness = if args.shell { Thickness::Shell } else { Thickness::Surface };
@@ -118,9 +123,11 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
     let turned = turned(mesh, distance, is_wanted)?;
     if turned.len() == taken {
         bail!(
-            "{}: a distance of {distance} turns the whole surface inside out: it is more than the surface is thick or round there; \
-             give a smaller one (the diagonal of the mesh is {diagonal})",
-            args.input.display()
+            "{}: a distance of {} turns the whole surface inside out: it is more than the surface is thick or round there; \
+             give a smaller one (the diagonal of the mesh is {})",
+            args.input.display(),
+            number(distance),
+            number(diagonal)
         );
     }
     let triangles = moved.triangulated();
@@ -140,7 +147,8 @@ pub(super) fn run(args: &OffsetArgs) -> Result<ExitStatus> {
         first_self_intersection: crossings.first().map(|&(f, _)| triangles.triangle(f as usize)[0].into()),
         faces_turned: turned.len(),
         first_turned: turned.first().map(|&p| p.into()),
-        remarks: input.remarks(false),
+        places: Places::on(diagonal),
+        remarks: input.all_remarks(format != MeshFormat::Stl),
     };
     match args.format {
         FormatArg::Text => output::say(&report.lines()),
@@ -197,20 +205,27 @@ impl Report {
     fn lines(&self) -> String {
         let mut text = format!(
             "moved by {} along the normals: {} of {} faces, now {} vertices and {} faces; volume {}\n",
-            self.distance_units, self.faces_taken, self.faces_in, self.vertices_out, self.faces_out, self.volume_out
+            number(self.distance_units),
+            self.faces_taken,
+            self.faces_in,
+            self.vertices_out,
+            self.faces_out,
+            number(self.volume_out)
         );
-        if let Some([x, y, z]) = self.first_self_intersection {
+        if let Some(first) = self.first_self_intersection {
             text += &format!(
-                "CROSSED: {} pairs of faces pass through each other ({} before), one at ({x:.4}, {y:.4}, {z:.4}): the surface is \
-                 more curved there than the distance allows\n",
-                self.self_intersections_out, self.self_intersections_in
+                "CROSSED: {} of faces pass through each other ({} before), one at {}: the surface is more curved there than the distance \
+                 allows\n",
+                count(self.self_intersections_out, "pair", "pairs"),
+                self.self_intersections_in,
+                self.places.show(first)
             );
         }
-        if let Some([x, y, z]) = self.first_turned {
+        if let Some(first) = self.first_turned {
             text += &format!(
-                "TURNED: {} faces are turned over, one from ({x:.4}, {y:.4}, {z:.4}): the distance is more than the surface is thick or round \
-                 there\n",
-                self.faces_turned
+                "TURNED: {} turned over, one from {}: the distance is more than the surface is thick or round there\n",
+                count(self.faces_turned, "face is", "faces are"),
+                self.places.show(first)
             );
         }
         self.remarks.iter().for_each(|remark| text += &format!("note: {remark}\n"));

@@ -20,11 +20,15 @@ pub(super) fn words(repairs: &[Repair]) -> Option<String> {
                 (["duplicate face left out", "duplicate faces left out"], polygon)
             }
             Repair::Reversed { polygon } => (["face turned over", "faces turned over"], polygon),
+            Repair::Welded { vertex, .. } => {
+                (["vertex welded to another at the same place", "vertices welded to others at the same places"], vertex)
+            }
             Repair::DroppedVertex { vertex } => {
                 (["vertex without faces left out", "vertices without faces left out"], vertex)
             }
         };
-        let what = if matches!(repair, Repair::DroppedVertex { .. }) { "vertex" } else { "face" };
+        let what =
+            if matches!(repair, Repair::DroppedVertex { .. } | Repair::Welded { .. }) { "vertex" } else { "face" };
         let at = kinds.iter().position(|k| *k == kind).unwrap_or_else(|| {
             kinds.push(kind);
             places.push(vec![]);

@@ -3,15 +3,20 @@
 use std::fmt::Write as _;
 
 use super::choose::Choice;
+use super::digits::{Places, count, number};
 use super::flow::Flown;
 use super::work::{Done, Input};
 use super::{MethodArg, Step, WorkArgs};
 use crate::flow::End;
+use crate::io::mesh::MeshFormat;
 use crate::mesh::{NONE, TriangleMesh};
 use crate::rolling::Trouble;
 
 /// So many conflicts are named.
 const NAMED: usize = 5;
+
+/// A volume below this part of the cube of the diagonal is nothing but rounding.
+const NO_VOLUME: f64 = 1e-12;
 
 /// The report.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -42,6 +47,14 @@ pub(super) struct Report {
     pub flow: Option<Flown>,
     repairs: usize,
     remarks: Vec<String>,
+    /// So many remarks at the start were said before the work began.
+    #[serde(skip)]
+    said: usize,
+    #[serde(skip)]
+    places: Places,
+    /// The volume that is nothing but rounding.
+    #[serde(skip)]
+    no_volume: f64,
     pub conflicts: Vec<Place>,
 }
 
@@ -54,6 +67,10 @@ pub(super) struct Place {
 impl Report {
     pub fn new(args: &WorkArgs, input: &Input, steps: &[Step], done: &Done) -> Report {
         let result = TriangleMesh::new(done.points.clone(), done.faces.clone());
+        let diagonal = input.triangles.diagonal();
+        let has_colours = output_format(args) == Some(MeshFormat::Ply);
+        let remarks = input.warnings().into_iter().chain(input.remarks(true));
+        let remarks = remarks.chain(input.left_out(has_colours)).chain(lost(args, input));
         Report {
             steps: steps.to_vec(),
             method: args.method,
@@ -73,13 +90,31 @@ impl Report {
             choices: if args.method == MethodArg::Auto { done.choices.clone() } else { Vec::new() },
             flow: done.flown.clone(),
             repairs: input.repairs.len(),
-            remarks: input.remarks(true).into_iter().chain(lost(args, input)).collect(),
+            remarks: remarks.collect(),
+            said: input.warnings().len(),
+            places: Places::on(diagonal),
+            no_volume: NO_VOLUME * diagonal.powi(3),
             conflicts: done
                 .conflicts
                 .iter()
                 .map(|c| Place { place: [c.place.x, c.place.y, c.place.z], trouble: c.trouble })
                 .collect(),
         }
+    }
+
+    /// Whether the result is the input, though something should have changed.
+    fn is_in_vain(&self) -> bool {
+        !self.conflicts.is_empty()
+            && [self.vertices_kept, self.vertices_out] == [self.vertices_in; 2]
+            && [self.faces_kept, self.faces_out] == [self.faces_in; 2]
+    }
+
+    /// By how much the volume changed, in words.
+    fn volume(&self) -> String {
+        if self.volume_in.abs() <= self.no_volume {
+            return format!("volume {}, of {} before", number(self.volume_out), number(self.volume_in));
+        }
+        format!("volume {:+.3} %", 100.0 * (self.volume_out / self.volume_in - 1.0))
     }
 
     pub fn lines(&self) -> String {
@@ -92,8 +127,8 @@ impl Report {
             })
             .collect();
         let radius = match self.radii_units {
-            Some([least, most]) => format!("{least} to {most}"),
-            None => self.radius_units.to_string(),
+            Some([least, most]) => format!("{} to {}", number(least), number(most)),
+            None => number(self.radius_units),
         };
         if self.faces_out == 0 {
             return format!(
@@ -101,22 +136,30 @@ impl Report {
                 steps.join(", then ")
             );
         }
-        let mut text = format!(
-            "{} by {radius} with edges of {:.4}: {} of {} vertices and {} of {} faces kept bit for bit, now {} vertices and {} faces; volume \
-             {:+.3} %\n",
-            steps.join(", then "),
-            self.edge_length_units,
-            self.vertices_kept,
-            self.vertices_in,
-            self.faces_kept,
-            self.faces_in,
-            self.vertices_out,
-            self.faces_out,
-            100.0 * (self.volume_out / self.volume_in - 1.0),
-        );
+        let mut text =
+            format!("{} by {radius} with edges of {}: ", steps.join(", then "), number(self.edge_length_units));
+        if self.is_in_vain() {
+            let _ = writeln!(
+                text,
+                "NOTHING was changed, and it should have been: what is around {} could not be done; what is written is the input. Try another \
+                 --edge-length or radius",
+                count(self.conflicts.len(), "place", "places")
+            );
+        } else {
+            let _ = writeln!(
+                text,
+                "{} of {} and {} of {} kept bit for bit, now {} and {}; {}",
+                self.vertices_kept,
+                count(self.vertices_in, "vertex", "vertices"),
+                self.faces_kept,
+                count(self.faces_in, "face", "faces"),
+                count(self.vertices_out, "vertex", "vertices"),
+                count(self.faces_out, "face", "faces"),
+                self.volume()
+            );
+        }
         for choice in &self.choices {
-            let used = if choice.used == MethodArg::Flow { "flow" } else { "direct" };
-            let _ = writeln!(text, "method {used}: {}", choice.because);
+            let _ = writeln!(text, "method: {}", choice.summary);
         }
         if let Some(error) = self.largest_error_edge_lengths.filter(|_| self.faces_kept < self.faces_in) {
             let _ = writeln!(
@@ -135,22 +178,24 @@ impl Report {
                 Some(End::Singular) => "STOPPED, a step could not be solved; try another --edge-length or --time-step",
             };
             let _ = writeln!(text, "flow for {:.4} r² in {} steps: {why}", flow.time_r2, flow.steps);
-            if let Some([x, y, z]) = flow.contacts.first() {
-                let n = flow.contacts.len();
+            if let Some(&first) = flow.contacts.first() {
                 let _ = writeln!(
                     text,
-                    "CONTACT in {n} places, the first at ({x:.4}, {y:.4}, {z:.4}): the surface crosses itself, or would if it went on"
+                    "CONTACT in {}, the first at {}: the surface crosses itself, or would if it went on",
+                    count(flow.contacts.len(), "place", "places"),
+                    self.places.show(first)
                 );
             }
-            if let Some([x, y, z]) = flow.short.first() {
-                let n = flow.short.len();
+            if let Some(&first) = flow.short.first() {
                 let _ = writeln!(
                     text,
-                    "SHORT in {n} places, the first at ({x:.4}, {y:.4}, {z:.4}): the surface is more than an edge length from the exact result"
+                    "SHORT in {}, the first at {}: the surface is more than an edge length from the exact result",
+                    count(flow.short.len(), "place", "places"),
+                    self.places.show(first)
                 );
             }
         }
-        for remark in &self.remarks {
+        for remark in self.remarks.iter().skip(self.said) {
             let _ = writeln!(text, "note: {remark}");
         }
         let (done, beyond) = match self.steps.as_slice() {
@@ -159,7 +204,7 @@ impl Report {
             _ => ("changed", "leave the side of the input that it belongs on"),
         };
         for conflict in self.conflicts.iter().take(NAMED) {
-            let [x, y, z] = conflict.place;
+            let place = self.places.show(conflict.place);
             let what = match conflict.trouble {
                 Trouble::Tear => "the surface would tear".to_owned(),
                 Trouble::Fold => "the surface would fold".to_owned(),
@@ -167,10 +212,7 @@ impl Report {
                 Trouble::Missed => "something between the corners of a face should have moved".to_owned(),
                 Trouble::Dip => format!("the surface would {beyond}"),
             };
-            let _ = writeln!(
-                text,
-                "CONFLICT at ({x:.4}, {y:.4}, {z:.4}): {what}; what is around it was {done} less or not at all"
-            );
+            let _ = writeln!(text, "CONFLICT at {place}: {what}; what is around it was {done} less or not at all");
         }
         if self.conflicts.len() > NAMED {
             let _ = writeln!(text, "CONFLICT: {} places in all; --format json lists them", self.conflicts.len());
@@ -179,11 +221,15 @@ impl Report {
     }
 }
 
-/// What of the numbers and colours of the input is not in the result, in words.
+/// The format of the result by its name.
+fn output_format(args: &WorkArgs) -> Option<MeshFormat> {
+    args.output.as_deref().and_then(MeshFormat::of_path)
+}
+
+/// What of the numbers of the input is not in the result, in words.
 fn lost(args: &WorkArgs, input: &Input) -> Option<String> {
     let name = input.scalar_name.as_ref()?;
-    let format = args.output.as_deref().and_then(crate::io::mesh::MeshFormat::of_path);
-    let instead =
-        if format == Some(crate::io::mesh::MeshFormat::Ply) { ": the PLY has displacements instead" } else { "" };
+    let is_ply = output_format(args) == Some(MeshFormat::Ply);
+    let instead = if is_ply { ": the PLY has displacements instead" } else { "" };
     Some(format!("the numbers at the vertices of the input (`{name}`) are not in the result{instead}"))
 }

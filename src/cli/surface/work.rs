@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::digits::number;
 use super::{MethodArg, Step, WorkArgs, repairs};
 use crate::cli::input;
 use crate::io::mesh::{self as files, MeshFormat};
@@ -53,6 +54,8 @@ pub(super) struct Input {
     pub repairs: Vec<Repair>,
     /// What the file calls the numbers at its vertices, if it has some.
     pub scalar_name: Option<String>,
+    /// What the file says that no result has.
+    left_out: Vec<&'static str>,
 }
 
 /// The format of a file that is to be written.
@@ -68,15 +71,68 @@ pub(super) fn format_of(path: &Path) -> Result<MeshFormat> {
 
 /// The polygons in a file.
 pub(super) fn read_polygons(path: &Path) -> Result<PolygonMesh> {
-    Ok(read_named(path)?.0)
+    Ok(read_file(path)?.polygons)
 }
 
-/// The polygons in a file, and what it calls the numbers at their vertices.
-fn read_named(path: &Path) -> Result<(PolygonMesh, Option<String>)> {
+/// What is in a file.
+struct File {
+    polygons: PolygonMesh,
+    /// What it calls the numbers at the vertices.
+    scalar_name: Option<String>,
+    left_out: Vec<&'static str>,
+}
+
+fn read_file(path: &Path) -> Result<File> {
     let bytes = input::read_bytes(path)?;
     let format = MeshFormat::of_path(path).unwrap_or_else(|| MeshFormat::of_bytes(&bytes));
-    let mesh = files::read(&bytes, format).with_context(|| path.display().to_string())?;
-    Ok((mesh, files::scalar_name(&bytes, format)))
+    let polygons = files::read(&bytes, format).with_context(|| path.display().to_string())?;
+    Ok(File { polygons, scalar_name: files::scalar_name(&bytes, format), left_out: files::left_out(&bytes, format) })
+}
+
+/// Refuses meshes of a size that lengths on it cannot be reckoned with.
+pub(super) fn keep_size(path: &Path, diagonal: f64) -> Result<()> {
+    if (DIAGONALS[0]..=DIAGONALS[1]).contains(&diagonal) {
+        return Ok(());
+    }
+    bail!(
+        "{}: the diagonal of its box is {diagonal:e}: give it other units, so that it is from {:e} to {:e}",
+        path.display(),
+        DIAGONALS[0],
+        DIAGONALS[1]
+    )
+}
+
+/// Refuses radii that make no sense on a mesh of this diagonal.
+pub(super) fn keep_radius(path: &Path, radius: f64, diagonal: f64) -> Result<()> {
+    if (RADII[0] * diagonal..=RADII[1] * diagonal).contains(&radius) {
+        return Ok(());
+    }
+    bail!(
+        "{}: a radius of {} on a mesh whose box has a diagonal of {}: give one from {:.3e} to {:.3e}, for example 2%",
+        path.display(),
+        number(radius),
+        number(diagonal),
+        RADII[0] * diagonal,
+        RADII[1] * diagonal
+    )
+}
+
+/// Refuses `--edge-length` where it is longer than the radius, or makes more triangles than can be held.
+pub(super) fn keep_edge(edge: f64, radius: f64, diagonal: f64) -> Result<()> {
+    let shortest = SHORTEST_EDGE * diagonal;
+    if (shortest..=radius).contains(&edge) {
+        return Ok(());
+    }
+    bail!(
+        "--edge-length {}: an edge length must be at most the radius ({}) and at least {shortest:.3e}",
+        number(edge),
+        number(radius)
+    )
+}
+
+/// The longest edges on a mesh of this diagonal, unless they are asked for.
+pub(super) fn longest_edge(diagonal: f64) -> f64 {
+    LONGEST_EDGE * diagonal
 }
 
 impl Input {
@@ -85,10 +141,15 @@ impl Input {
     /// # Errors
     /// Where the file cannot be read, or the mesh is no surface with an inside.
     pub fn read(path: &Path, mend: bool) -> Result<Input> {
-        let (mut polygons, scalar_name) = read_named(path)?;
+        let File { mut polygons, scalar_name, left_out } = read_file(path)?;
         let mut repairs = Vec::new();
         if mend {
             (polygons, repairs) = repair(polygons);
+        }
+        let triangles = polygons.triangulated();
+        // Before all else: where products of lengths are no numbers, nothing that is found is true.
+        if !triangles.faces.is_empty() {
+            keep_size(path, triangles.diagonal())?;
         }
         let found = problems(&polygons);
         let refused: Vec<&Problem> = found
@@ -109,17 +170,7 @@ impl Input {
             bail!("{}: {first}{hint}{more}", path.display());
         }
         let allowed = found.iter().filter(|p| p.severity() == Severity::Allowed).copied().collect();
-        let triangles = polygons.triangulated();
-        let diagonal = triangles.diagonal();
-        if !triangles.faces.is_empty() && !(DIAGONALS[0]..=DIAGONALS[1]).contains(&diagonal) {
-            bail!(
-                "{}: the diagonal of its box is {diagonal:e}: give it other units, so that it is from {:e} to {:e}",
-                path.display(),
-                DIAGONALS[0],
-                DIAGONALS[1]
-            );
-        }
-        Ok(Input { polygons, triangles, allowed, repairs, scalar_name })
+        Ok(Input { polygons, triangles, allowed, repairs, scalar_name, left_out })
     }
 
     /// Where the mesh is, in words.
@@ -128,7 +179,37 @@ impl Input {
         format!("it reaches from ({}, {}, {}) to ({}, {}, {})", low.x, low.y, low.z, high.x, high.y, high.z)
     }
 
-    /// What is allowed and worth saying; whether borders stay where they are, as where a ball rolls.
+    /// What may make all the work pointless, in words: it is said before that begins.
+    pub fn warnings(&self) -> Vec<String> {
+        let is_coincident = |p: &&Problem| matches!(p, Problem::Coincident { .. });
+        let coincident: Vec<&Problem> = self.allowed.iter().filter(is_coincident).collect();
+        let mut warnings = Vec::new();
+        if let Some(first) = coincident.first() {
+            warnings.push(match coincident.len() {
+                1 => first.to_string(),
+                n => format!("{first} ({n} such pairs in all)"),
+            });
+        }
+        let unwelded = self.allowed.iter().filter(|p| matches!(p, Problem::Unwelded { .. }));
+        warnings.extend(unwelded.map(Problem::to_string));
+        warnings
+    }
+
+    /// What of the file is not in a result of this format, in words; whether such a result has the colours of the vertices.
+    pub fn left_out(&self, has_colours: bool) -> Option<String> {
+        let mut left_out = self.left_out.clone();
+        if !self.polygons.colours.is_empty() && !has_colours {
+            left_out.push("colours of vertices (PLY has them)");
+        }
+        (!left_out.is_empty()).then(|| format!("not in the result: {}", left_out.join(", ")))
+    }
+
+    /// All that is worth saying of a mesh of which a part is cut or moved; whether the result has the colours of its vertices.
+    pub fn all_remarks(&self, has_colours: bool) -> Vec<String> {
+        self.warnings().into_iter().chain(self.remarks(false)).chain(self.left_out(has_colours)).collect()
+    }
+
+    /// What is allowed and worth saying besides; whether borders stay where they are, as where a ball rolls.
     pub fn remarks(&self, are_borders_pinned: bool) -> Vec<String> {
         let words = |problem: &Problem| match problem {
             Problem::Boundary { vertex, edges } if !are_borders_pinned => {
@@ -137,7 +218,9 @@ impl Input {
             other => other.to_string(),
         };
         let mut remarks: Vec<String> = repairs::words(&self.repairs).into_iter().collect();
-        remarks.extend(self.allowed.iter().take(NAMED).map(words));
+        let is_warned_of = |p: &&Problem| matches!(p, Problem::Coincident { .. } | Problem::Unwelded { .. });
+        let others: Vec<&Problem> = self.allowed.iter().filter(|p| !is_warned_of(p)).collect();
+        remarks.extend(others.iter().take(NAMED).map(|p| words(p)));
         let crossings = self.allowed.iter().filter(|p| matches!(p, Problem::SelfIntersection { .. })).count();
         if crossings > 0 {
             let more = if crossings >= MOST_INTERSECTIONS { " or more" } else { "" };
@@ -145,8 +228,8 @@ impl Input {
                 "{crossings} pairs of faces{more} pass through each other in all: if these are bodies that overlap, unite them first; what is \
                  inside of another body is not the outside of the whole"
             ));
-        } else if self.allowed.len() > NAMED {
-            remarks.push(format!("{} such remarks in all", self.allowed.len()));
+        } else if others.len() > NAMED {
+            remarks.push(format!("{} such remarks in all", others.len()));
         }
         remarks
     }
@@ -194,41 +277,33 @@ pub(super) fn apply(args: &WorkArgs, input: &Input, steps: &[Step]) -> Result<Ve
         );
     }
     for r in [field.smallest, field.largest] {
-        if !(RADII[0] * diagonal..=RADII[1] * diagonal).contains(&r) {
-            bail!(
-                "a radius of {r} on a mesh whose box has a diagonal of {diagonal}: give one from {:.3e} to {:.3e}, for example 2%",
-                RADII[0] * diagonal,
-                RADII[1] * diagonal
-            );
-        }
+        keep_radius(&args.input, r, diagonal)?;
     }
     let edge = match args.edge_length {
         Some(edge) => edge.on(diagonal),
         None => (EDGE * field.smallest)
             .min(input.triangles.mean_edge().max(FINEST_EDGE * field.smallest))
-            .min(LONGEST_EDGE * diagonal),
+            .min(longest_edge(diagonal)),
     };
     let shortest = SHORTEST_EDGE * diagonal;
     if args.edge_length.is_none() && edge < shortest {
         let least = shortest / if input.triangles.mean_edge() < shortest { FINEST_EDGE } else { EDGE };
         bail!(
-            "a radius of {} is too small for a mesh whose box has a diagonal of {diagonal}: its fillets would have more triangles than \
+            "{}: a radius of {} is too small for a mesh whose box has a diagonal of {}: its fillets would have more triangles than \
              can be held; give {least:.3e} or more",
-            field.smallest
+            args.input.display(),
+            number(field.smallest),
+            number(diagonal)
         );
     }
-    if edge < shortest || edge > field.smallest {
-        bail!(
-            "an edge length of {edge}: it must be at most the radius ({}) and at least {:.3e}",
-            field.smallest,
-            shortest
-        );
-    }
-    let far = input.triangles.points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+    keep_edge(edge, field.smallest, diagonal)?;
+    let [low, high] = input.triangles.bounds().unwrap_or([Point::origin(); 2]);
+    let far = low.coords.amax().max(high.coords.amax());
     if edge < STEPS * far {
         bail!(
-            "an edge length of {edge}: coordinates as large as {far:.3e} are rounded too coarsely for it; move the mesh nearer to the \
-             origin"
+            "{}: coordinates as large as {far:.3e} are rounded too coarsely for an edge length of {}; move the mesh nearer to the origin",
+            args.input.display(),
+            number(edge)
         );
     }
     let bar = ProgressBar::new_spinner();

@@ -106,6 +106,19 @@ pub enum MeshError {
         /// How many.
         corners: usize,
     },
+    /// A face that comes back to its corners again and again.
+    #[error(
+        "face {face} (counted from 0) has {corners} corners at no more than {vertices} vertices: it comes back to them again and again; cut \
+         it into simple faces"
+    )]
+    Tangled {
+        /// Which one.
+        face: usize,
+        /// How many corners it has.
+        corners: usize,
+        /// At how many vertices.
+        vertices: usize,
+    },
     /// A count that the file has no room for.
     #[error(
         "{place}: the header promises {count} of \"{element}\", which the {left} bytes that follow cannot hold: the file was cut \

@@ -105,6 +105,9 @@ pub fn read(bytes: &[u8], format: MeshFormat) -> Result<PolygonMesh, MeshError> 
     if mesh.polygon_count() == 0 {
         return Err(MeshError::NoFaces { vertices: mesh.points.len() });
     }
+    if let Some((face, vertices)) = mesh.first_tangled() {
+        return Err(MeshError::Tangled { face, corners: mesh.polygon(face).len(), vertices });
+    }
     Ok(mesh)
 }
 
@@ -132,6 +135,12 @@ pub fn write_named(mesh: &PolygonMesh, format: MeshFormat, scalar_name: Option<&
 /// What a file calls the numbers at its vertices that [`read`] gives; nothing where there are none.
 pub fn scalar_name(bytes: &[u8], format: MeshFormat) -> Option<String> {
     if format == MeshFormat::Ply { ply::scalar_name(bytes) } else { None }
+}
+
+/// What a file says of a surface that [`read`] leaves out, in words: `normals`, `materials`. Only of OBJ: what a PLY may say has
+/// no end.
+pub fn left_out(bytes: &[u8], format: MeshFormat) -> Vec<&'static str> {
+    if format == MeshFormat::Obj { obj::left_out(bytes) } else { vec![] }
 }
 
 /// The colour of vertices that have none among others that have one.

@@ -75,6 +75,32 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
     Ok(mesh)
 }
 
+/// Statements that are passed over, and what they tell of.
+const LEFT_OUT: [(&[&[u8]], &str); 6] = [
+    (&[b"vt"], "texture coordinates"),
+    (&[b"vn"], "normals"),
+    (&[b"usemtl", b"mtllib"], "materials"),
+    (&[b"g", b"o"], "names of objects and groups"),
+    (&[b"s"], "smoothing groups"),
+    (&[b"l", b"p", b"curv", b"curv2", b"surf"], "points, lines and curves"),
+];
+
+/// What a file tells of that is left out.
+pub(super) fn left_out(bytes: &[u8]) -> Vec<&'static str> {
+    let mut text = Text::new(bytes, Syntax::Joined);
+    let mut is_there = [false; LEFT_OUT.len()];
+    loop {
+        if let Some(word) = text.word().filter(|w| !matches!(*w, b"v" | b"f")) {
+            let kinds = LEFT_OUT.iter().zip(&mut is_there);
+            kinds.filter(|((words, _), _)| words.contains(&word)).for_each(|(_, is_there)| *is_there = true);
+        }
+        if !text.next_line() {
+            break;
+        }
+    }
+    LEFT_OUT.iter().zip(is_there).filter(|(_, is_there)| *is_there).map(|((_, what), _)| *what).collect()
+}
+
 /// The colours that were found, and after how many vertices.
 #[derive(Default)]
 struct Colours {

@@ -82,6 +82,18 @@ impl Covering<'_> {
         faces
     }
 
+    /// A place where the surface has crumpled, if the active faces have more area than this: one that turns its back on its balls.
+    pub fn crumpled(&self, most_area: f64) -> Option<Point> {
+        let faces = self.active_faces();
+        let area: f64 = faces.iter().map(|&f| 0.5 * self.mesh.area_vector(f).norm()).sum();
+        if area <= most_area {
+            return None;
+        }
+        let folded = faces.iter().find(|&&f| self.agreement(self.mesh.face(f), &self.mesh.area_vector(f)) < 0.0);
+        let [a, b, c] = self.mesh.triangle(*folded.or(faces.first())?);
+        Some(Point::from((a.coords + b.coords + c.coords) / 3.0))
+    }
+
     /// The edges of the active faces with their lengths, by one half-edge each.
     pub fn active_edges(&self) -> Vec<(f64, u32)> {
         let of = |f: u32| self.mesh.half_edges(f);

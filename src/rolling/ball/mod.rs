@@ -57,6 +57,10 @@ const HOPELESS: f64 = 0.5;
 /// A bold try may make so many times the vertices there were.
 const MOST_VERTICES: usize = 2;
 
+/// What moved of a surface has crumpled where it has so many times the area that the whole surface and the box around it have: the
+/// closing spans what it fills with less than it covers, and is nowhere wider than the hull.
+const CRUMPLED: f64 = 1.25;
+
 /// The radius grows by this much for every unit of distance from what is pinned.
 const EASE: f64 = 1.0;
 
@@ -115,14 +119,18 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
     let hierarchy = Hierarchy::new(&input.points, &input.faces);
     let ground = Ground { mesh: &mesh, hierarchy: &hierarchy };
     let field = |p: Point| options.ball(p);
-    let careful = retry(cover(input, &ground, &field, options, None));
+    let careful = match cover(input, &ground, &field, options, None) {
+        Ok(covering) => retry(covering),
+        Err(crumpled) => return Ok(result::unmoved(input, crumpled)),
+    };
     let moved = careful.0.active_faces().len() as f64;
     if careful.1.faces.is_empty() || careful.1.faces.len() as f64 > HOPELESS * moved {
         return Ok(result::result(input, &careful.0, careful.1));
     }
     let most = MOST_VERTICES * careful.0.state.len();
-    let bold = retry(cover(input, &ground, &field, options, Some(most)));
-    let (covering, found) = if bold.1.faces.len() < careful.1.faces.len() { bold } else { careful };
+    let bold = cover(input, &ground, &field, options, Some(most)).ok().map(retry);
+    let better = bold.filter(|bold| bold.1.faces.len() < careful.1.faces.len());
+    let (covering, found) = better.unwrap_or(careful);
     Ok(result::result(input, &covering, found))
 }
 
@@ -130,13 +138,18 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
 ///
 /// A bold try splits long edges even where faces turn their backs on the ball for a while, as long as there are not too many
 /// vertices: what is folded then unfolds in the end, or is cut out. Careful ones get stuck where gaps with wide mouths are filled.
+///
+/// # Errors
+/// Where the surface crumples, a place where it does: what lies on itself in ever more folds, as between bodies that touch, would
+/// go on growing without ever becoming the closing.
 fn cover<'a>(
     input: &TriangleMesh,
     ground: &'a Ground<'a>,
     field: &'a (dyn Fn(Point) -> f64 + Sync),
     options: &SurfaceOptions,
     bold: Option<usize>,
-) -> Covering<'a> {
+) -> Result<Covering<'a>, Point> {
+    let most_area = CRUMPLED * roomy_area(input);
     let mut covering = Covering {
         ground,
         mesh: ground.mesh.clone(),
@@ -169,6 +182,9 @@ fn cover<'a>(
         covering.mend_jumps();
         covering.remesh(if part >= 1.0 { LAST_ROUNDS } else { ROUNDS });
         for _ in 0..MENDINGS {
+            if let Some(place) = covering.crumpled(most_area) {
+                return Err(place);
+            }
             if !covering.mend() {
                 break;
             }
@@ -184,5 +200,14 @@ fn cover<'a>(
         }
     }
     covering.bold = None;
-    covering
+    match covering.crumpled(most_area) {
+        Some(place) => Err(place),
+        None => Ok(covering),
+    }
+}
+
+/// The area of a surface, or of the box around it where that is larger.
+fn roomy_area(mesh: &TriangleMesh) -> f64 {
+    let [a, b, c] = mesh.bounds().map_or([0.0; 3], |[low, high]| (high - low).into());
+    mesh.area().max(2.0 * (a * b + b * c + c * a))
 }

@@ -1,9 +1,9 @@
 //! What comes out: the input as far as it is left, then what is new.
 
 use super::ClosedSurface;
-use super::conflicts::Found;
+use super::conflicts::{Conflict, Found, Trouble};
 use super::covering::{Covering, State};
-use crate::mesh::{NONE, TriangleMesh};
+use crate::mesh::{NONE, Point, TriangleMesh};
 
 /// The surface, with the regions that hold a face that was found bad as they were in the input.
 pub(super) fn result(input: &TriangleMesh, covering: &Covering, found: Found) -> ClosedSurface {
@@ -50,6 +50,18 @@ pub(super) fn result(input: &TriangleMesh, covering: &Covering, found: Found) ->
     }
     closed.faces = faces.into_iter().map(|f| f.map(|v| number[v as usize])).collect();
     closed
+}
+
+/// The input, with one place that could not be done.
+pub(super) fn unmoved(input: &TriangleMesh, place: Point) -> ClosedSurface {
+    ClosedSurface {
+        points: input.points.clone(),
+        origins: (0..input.points.len() as u32).collect(),
+        faces: input.faces.clone(),
+        parents: (0..input.faces.len() as u32).collect(),
+        conflicts: vec![Conflict { place, trouble: Trouble::Fold }],
+        error: 0.0,
+    }
 }
 
 /// The region of each face of the input: touched faces that are neighbours are of one region, in the input or where gaps were

@@ -159,7 +159,9 @@ impl Header {
                 }
                 Some(b"element") => {
                     let name = name(&mut text)?;
-                    if elements.iter().any(|e| e.name == name && e.label() != "other element") {
+                    // Only what is read must not come twice; of all others there may be any number.
+                    let is_read = matches!(name.as_str(), "vertex" | "face");
+                    if is_read && elements.iter().any(|e| e.name == name) {
                         return Err(text.unexpected(Some(name.as_bytes()), "an element that is not there yet"));
                     }
                     let word = text.word();
