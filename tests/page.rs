@@ -137,15 +137,12 @@ fn lost_features_are_told_with_the_tool_that_would_cut_them() {
     fs::write(folder.path().join("plate.svg"), svg).unwrap();
     let (html, status) = page(folder.path(), &["plate.svg", "--path-radius", "0"]);
     assert_eq!(status, 1);
-    assert!(html.contains("<strong>Not good</strong>") && html.contains("1 feature of the drawing is lost"), "{html}");
+    assert!(html.contains("<strong>Not good</strong>") && html.contains("1 feature of the drawing is lost"));
     for cell in ["hole 2.00 mm wide", "16, 15", "filled, 3.14 mm²", "the tool of 3.175 mm does not fit"] {
         assert!(html.contains(&format!("{cell}</td>")), "{cell}");
     }
-    // Flattening of the circle takes a little.
-    assert!(
-        html.contains("<td>a tool below 2.000 mm cuts it</td>") || html.contains("<td>a tool below 1.99"),
-        "{html}"
-    );
+    // Flattening takes a little of the circle.
+    assert!(html.contains("<td>a tool below 1.99"));
     assert!(!html.contains("<td>inside corner"), "what stands in the hole is the hole");
     assert!(html.contains("there is nothing to compare"));
 }
@@ -175,7 +172,7 @@ fn a_page_takes_no_place_that_is_taken() {
             .args(["mill", bracket.to_str().unwrap(), "-o", "part.nc", "--html", html])
             .output()
             .unwrap();
-        assert_eq!(output.status.code(), Some(2), "{html}");
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{html}");
+        assert_eq!(output.status.code(), Some(2));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

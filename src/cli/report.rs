@@ -76,7 +76,8 @@ impl MillReport<'_> {
     pub(super) fn failures(&self) -> Vec<String> {
         let mut failures = Vec::new();
         if !self.lost.is_empty() && !self.accept_losses {
-            failures.push(format!("{} of the drawing lost", is_or_are(self.lost.len(), "feature")));
+            let are = if self.lost.len() == 1 { "is" } else { "are" };
+            failures.push(format!("{} of the drawing {are} lost", count(self.lost.len(), "feature")));
         }
         if let Some(gouge) = self.certificate.gouge.filter(|_| self.gouges()) {
             failures.push(format!("line {} cuts {:.4} mm into the part", gouge.line, gouge.depth_mm));
@@ -292,10 +293,6 @@ fn more(line: &mut impl FnMut(&str, String), total: usize) {
     if total > PLACES_SHOWN {
         line("", format!("and {} more (--format json lists all)", total - PLACES_SHOWN));
     }
-}
-
-fn is_or_are(n: usize, what: &str) -> String {
-    format!("{} {}", count(n, what), if n == 1 { "is" } else { "are" })
 }
 
 fn count(n: usize, what: &str) -> String {

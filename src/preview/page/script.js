@@ -9,6 +9,8 @@
   const MARGIN = 16;
   // Seconds: just behind the end of a motion, in the next.
   const AFTER = 1e-6;
+  // Millimetres: a line that is drawn, and not seen to be one.
+  const DOT = 1e-3;
 
   function color(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -108,7 +110,8 @@
         c.arc(b[CX], b[CY], Math.hypot(a[X] - b[CX], a[Y] - b[CY]), angle, angle + b[SWEEP] * f, b[SWEEP] < 0);
       } else {
         const p = placeOf(k, f);
-        c.lineTo(p.x, p.y);
+        // What goes straight down is a dot as wide as the line.
+        c.lineTo(p.x === a[X] && p.y === a[Y] ? p.x + DOT : p.x, p.y);
       }
     }
 
