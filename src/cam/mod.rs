@@ -49,6 +49,7 @@ mod tabs;
 #[cfg(test)]
 pub(crate) mod test_shapes;
 mod time;
+mod time_saved;
 mod tool;
 mod tool_table;
 mod tool_text;
@@ -95,6 +96,7 @@ pub use solid::Remainder;
 pub use stock::Stock;
 pub use stock_surface::{StockSurface, stock_surface};
 pub use time::{Machine, ProgramTime, estimate, motion_seconds};
+pub use time_saved::TimeSaved;
 pub use tool::{Tool, ToolShape};
 pub use tool_table::ToolTable;
 pub use tool_text::ParseToolError;

@@ -50,6 +50,15 @@ impl ProgramTime {
     pub fn total_seconds(&self) -> f64 {
         self.feed_seconds + self.rapid_seconds + self.dwell_seconds
     }
+
+    /// Both, one after the other.
+    pub fn and(&self, other: &ProgramTime) -> ProgramTime {
+        ProgramTime {
+            feed_seconds: self.feed_seconds + other.feed_seconds,
+            rapid_seconds: self.rapid_seconds + other.rapid_seconds,
+            dwell_seconds: self.dwell_seconds + other.dwell_seconds,
+        }
+    }
 }
 
 /// GRBL's slowest junction speed, mm/min, so that no joint stops the machine ($MINIMUM_JUNCTION_SPEED is 0 by default).

@@ -1,9 +1,12 @@
 //! `clopen mill`: outlines to a program that was read back and checked before anyone is told that it is there.
 
 mod args;
+mod differences;
 mod init;
+mod page;
 mod select;
 mod setup;
+mod setup_page;
 mod setup_report;
 
 use std::path::{Path, PathBuf};
@@ -14,8 +17,8 @@ use super::check::FormatArg;
 use super::report::{MillReport, Verdict};
 use super::{ExitStatus, input, output};
 use crate::cam::{
-    self, Certificate, CertifyOptions, Job, JobFile, Machine, OffsetError, PlanError, Program, Remainder, SetupFile,
-    Side, Toolpath,
+    self, Certificate, CertifyOptions, Job, JobFile, Machine, OffsetError, PathRadius, PlanError, Program, Remainder,
+    SetupFile, Side, TimeSaved, Toolpath,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
@@ -80,6 +83,7 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
         }
         output::keep_input(&args.input, picture)?;
     }
+    keep_page(args)?;
     let drawing = args.reading.read(&args.input)?;
     let Some(mm_per_unit) = drawing.mm_per_unit else {
         bail!(
@@ -89,17 +93,20 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     };
     let settings = read_settings(args, &drawing)?;
     let job = &settings.job;
-    let plan = make_plan(&settings, &drawing.region.scaled(mm_per_unit)).with_context(|| name.to_string())?;
+    let part = drawing.region.scaled(mm_per_unit);
+    let plan = make_plan(&settings, &part).with_context(|| name.to_string())?;
     let checked = check(args, &settings, &plan)?;
+    let saved = time_saved(&settings, &part, &plan, &checked.program);
 
     let mut contents = vec![(target.clone(), checked.text.clone().into_bytes())];
-    if let Some(picture) = picture {
-        contents.push((picture, draw(job, &plan, &checked)?));
-    }
-    output::write_together(
-        &contents.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect::<Vec<_>>(),
-    )?;
-    let written: Vec<PathBuf> = contents.into_iter().map(|(path, _)| path).collect();
+    let drawn = if picture.is_some() || (args.html.is_some() && !args.no_preview) {
+        Some(draw(job, &plan, &checked)?)
+    } else {
+        None
+    };
+    contents.extend(picture.zip(drawn.clone()));
+    let mut written: Vec<PathBuf> = contents.iter().map(|(path, _)| path.clone()).collect();
+    written.extend(args.html.clone());
     let report = MillReport {
         input: &args.input,
         job,
@@ -111,8 +118,17 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
         findings: &checked.findings,
         contradictions: plan.contradictions,
         accept_losses: args.accept_losses,
+        saved: saved.as_ref(),
         written: &written,
     };
+    if let Some(html) = &args.html {
+        let name = if target == Path::new("-") { "program".to_owned() } else { page::file_name(&target) };
+        let page = page::page(&report, &settings, &plan, &checked, name, drawn);
+        contents.push((html.clone(), page.into_bytes()));
+    }
+    output::write_together(
+        &contents.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect::<Vec<_>>(),
+    )?;
     let text = match args.format {
         FormatArg::Text => report.text(),
         FormatArg::Json => report.json()?,
@@ -167,6 +183,27 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
             if size < 0.1 { format!("{size:.1e}") } else { format!("{size:.1}") }
         );
     }
+    let radius = job.closing_radius();
+    let (closed, toolpath, contradictions) = shape(settings, part)?;
+    // From here on in the machine's coordinates, which are those of the certificate and of the picture.
+    let part = part.translated(toolpath.translation);
+    let kept = match job.side {
+        Side::Outside | Side::On => closed,
+        Side::Inside => closed.reversed(),
+    }
+    .translated(toolpath.translation);
+    // Seen from the drawing: inside, it is the tool's pocket that is opened.
+    let operation = match job.side {
+        Side::Outside | Side::On => Operation::Close,
+        Side::Inside => Operation::Open,
+    };
+    let lost = if radius > 0.0 { lost_features(&part, &kept, Radius::new(radius)?, operation) } else { vec![] };
+    Ok(Plan { part, kept, toolpath, lost, contradictions })
+}
+
+/// What stays, closed by the tool and the path radius, and the way around it; and how many contradictions rounding left.
+fn shape(settings: &Settings, part: &Region) -> Result<(Region, Toolpath, usize)> {
+    let job = &settings.job;
     let stays = job.side.kept_material(part);
     let radius = job.closing_radius();
     // On the outline with sharp turns allowed nothing is closed.
@@ -185,20 +222,7 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
         ),
         (error, _) => error.into(),
     })?;
-    // From here on in the machine's coordinates, which are those of the certificate and of the picture.
-    let part = part.translated(toolpath.translation);
-    let kept = match job.side {
-        Side::Outside | Side::On => closed,
-        Side::Inside => closed.reversed(),
-    }
-    .translated(toolpath.translation);
-    // Seen from the drawing: inside, it is the tool's pocket that is opened.
-    let operation = match job.side {
-        Side::Outside | Side::On => Operation::Close,
-        Side::Inside => Operation::Open,
-    };
-    let lost = if radius > 0.0 { lost_features(&part, &kept, Radius::new(radius)?, operation) } else { vec![] };
-    Ok(Plan { part, kept, toolpath, lost, contradictions })
+    Ok((closed, toolpath, contradictions))
 }
 
 /// Writes the program, and from here on believes only what it says.
@@ -208,7 +232,7 @@ fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
     let text = gcode::write(&plan.toolpath, &header, dialect, *options)?;
     let findings = gcode::lint(&text, &LintOptions { dialect, stock_top: job.stock_top });
     let program = gcode::read(&text).context("the program cannot be read back; please report this")?;
-    let machine = Machine { acceleration: [job.acceleration; 3], ..Machine::default() };
+    let machine = machine(job);
     let remainder = match job.side {
         Side::Outside | Side::On => Remainder::Inside,
         Side::Inside => Remainder::Outside,
@@ -233,6 +257,25 @@ fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
         certificate.path_radius = cam::tightest_turns(&round, &plan.kept, remainder, job.stock_top);
     }
     Ok(Checked { text, program, findings, certificate })
+}
+
+fn machine(job: &Job) -> Machine {
+    Machine { acceleration: [job.acceleration; 3], ..Machine::default() }
+}
+
+/// What the path radius saves: the same work planned and written with sharp inside corners. `None` where the path is sharp, or
+/// the sharp one cannot be planned.
+fn time_saved(settings: &Settings, part: &Region, plan: &Plan, program: &Program) -> Option<TimeSaved> {
+    let job = &settings.job;
+    if job.path_radius_mm() == 0.0 {
+        return None;
+    }
+    let sharp = Job { path_radius: PathRadius::Length(0.0), ..job.clone() };
+    let sharp = Settings { job: sharp, dialect: settings.dialect.clone(), ..*settings };
+    let (_, toolpath, _) = shape(&sharp, part).ok()?;
+    let text = gcode::write(&toolpath, &[], &settings.dialect, settings.options).ok()?;
+    let saved = TimeSaved::between(program, &gcode::read(&text).ok()?, &machine(job), job.stock_top);
+    Some(TimeSaved { same_outlines: toolpath.contour_count == plan.toolpath.contour_count, ..saved })
 }
 
 /// The settings that stand at the top of the program.
@@ -260,6 +303,18 @@ fn draw(job: &Job, plan: &Plan, checked: &Checked) -> Result<Vec<u8>> {
         stock_top: job.stock_top,
     };
     preview::program(&scene, DEFAULT_SIZE).context("the picture cannot be drawn; --no-preview leaves it out")
+}
+
+/// Refuses a page in place of what is read, and one on standard output, where the certificate goes.
+fn keep_page(args: &MillArgs) -> Result<()> {
+    let Some(html) = &args.html else { return Ok(()) };
+    if html == Path::new("-") {
+        bail!("the page cannot go to standard output, where the certificate goes: name a file, --html part.html");
+    }
+    for input in [Some(&args.input), args.job.as_ref()].into_iter().flatten() {
+        output::keep_input(input, html)?;
+    }
+    Ok(())
 }
 
 fn target(args: &MillArgs) -> PathBuf {

@@ -14,6 +14,7 @@ mod report;
 mod simulate;
 mod surface;
 mod text;
+mod time_words;
 
 use std::process::ExitCode;
 

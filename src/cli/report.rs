@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use serde_json::json;
 
-use crate::cam::{Certificate, Job, Side};
+use super::time_words::{minutes, sharp, time_saved};
+use crate::cam::{Certificate, Job, Side, TimeSaved};
 use crate::check::{LostFeature, Place};
 use crate::gcode::{Arcs, Finding, Severity, Units, WriteOptions};
 use crate::plane::Region;
@@ -40,11 +41,13 @@ pub(super) struct MillReport<'a> {
     pub(super) findings: &'a [Finding],
     pub(super) contradictions: usize,
     pub(super) accept_losses: bool,
+    /// Against the path with sharp inside corners; `None` where this one is sharp, or that one cannot be planned.
+    pub(super) saved: Option<&'a TimeSaved>,
     pub(super) written: &'a [PathBuf],
 }
 
 impl MillReport<'_> {
-    fn gouges(&self) -> bool {
+    pub(super) fn gouges(&self) -> bool {
         self.certificate.gouge.is_some_and(|g| g.depth_mm > GOUGE_LIMIT)
     }
 
@@ -66,12 +69,29 @@ impl MillReport<'_> {
     }
 
     pub(super) fn verdict(&self) -> Verdict {
-        let losses = !self.lost.is_empty() && !self.accept_losses;
-        if losses || self.gouges() || self.hangs() || self.refused() || self.contradictions > 0 {
-            Verdict::Failed
-        } else {
-            Verdict::Good
+        if self.failures().is_empty() { Verdict::Good } else { Verdict::Failed }
+    }
+
+    /// What is wrong, in sentences.
+    pub(super) fn failures(&self) -> Vec<String> {
+        let mut failures = Vec::new();
+        if !self.lost.is_empty() && !self.accept_losses {
+            let are = if self.lost.len() == 1 { "is" } else { "are" };
+            failures.push(format!("{} of the drawing {are} lost", count(self.lost.len(), "feature")));
         }
+        if let Some(gouge) = self.certificate.gouge.filter(|_| self.gouges()) {
+            failures.push(format!("line {} cuts {:.4} mm into the part", gouge.line, gouge.depth_mm));
+        }
+        if self.hangs() {
+            failures.push("the cut does not go all around: the part hangs on the stock".to_owned());
+        }
+        if self.refused() {
+            failures.push(format!("{} would refuse the program, or it does harm", self.dialect));
+        }
+        if self.contradictions > 0 {
+            failures.push("rounding left contradictions in the closing: the path is not proved".to_owned());
+        }
+        failures
     }
 
     pub(super) fn json(&self) -> Result<String> {
@@ -87,6 +107,7 @@ impl MillReport<'_> {
             "path_radius_is_before_lines": self.options.arcs == Arcs::Lines,
             "certificate": self.certificate,
             "gouge_limit_mm": GOUGE_LIMIT,
+            "sharp": self.saved.map(sharp),
             "lost_features": self.lost,
             "findings": self.findings,
             "contradictions": self.contradictions,
@@ -178,6 +199,9 @@ impl MillReport<'_> {
             ),
         );
         line("time", format!("{}, at {} mm/s2", minutes(c.time.total_seconds()), self.job.acceleration));
+        if let Some(saved) = self.saved {
+            line("time saved", time_saved(saved));
+        }
         self.lost_lines(&mut line);
         for f in self.findings {
             line(
@@ -275,30 +299,25 @@ fn count(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-fn minutes(seconds: f64) -> String {
-    if seconds < 60.0 {
-        format!("{seconds:.1} s")
-    } else {
-        format!("{:.0} min {:.0} s", (seconds / 60.0).floor(), seconds % 60.0)
-    }
-}
-
 /// Sizes of features are known to this part of themselves.
 const SIZE_ACCURACY: f64 = 0.01;
+
+/// Why a feature of this width is lost.
+pub(super) fn why_lost(width: f64, tool_diameter: f64, path_radius: f64) -> String {
+    if (width - tool_diameter).abs() < SIZE_ACCURACY * tool_diameter {
+        format!("that is the tool of {tool_diameter} mm, which needs more room to move")
+    } else if width < tool_diameter {
+        format!("the tool of {tool_diameter} mm does not fit")
+    } else {
+        let room = 0.5 * (width - tool_diameter);
+        format!("the tool fits, but not with a path radius of {path_radius:.3} mm: at most {room:.3} mm")
+    }
+}
 
 /// What a feature is, and why the tool cannot make it.
 pub(super) fn describe(feature: &LostFeature, tool_diameter: f64, path_radius: f64) -> String {
     let at = |p: &Place| format!("at ({:.3}, {:.3})", p.x, p.y);
-    let why = |width: f64| {
-        if (width - tool_diameter).abs() < SIZE_ACCURACY * tool_diameter {
-            format!("that is the tool of {tool_diameter} mm, which needs more room to move")
-        } else if width < tool_diameter {
-            format!("the tool of {tool_diameter} mm does not fit")
-        } else {
-            let room = 0.5 * (width - tool_diameter);
-            format!("the tool fits, but not with a path radius of {path_radius:.3} mm: at most {room:.3} mm")
-        }
-    };
+    let why = |width: f64| why_lost(width, tool_diameter, path_radius);
     match feature {
         LostFeature::HoleFilled { center, diameter, .. } => {
             format!("hole {diameter:.2} mm wide {}: filled; {}", at(center), why(*diameter))
@@ -349,6 +368,7 @@ mod tests {
                 findings: &[],
                 contradictions: 0,
                 accept_losses: false,
+                saved: None,
                 written: &[],
             };
             (report.verdict(), report.text().contains("NOT CUT FREE"))

@@ -1,5 +1,5 @@
 //! Pictures of programs, as they were read back, of outlines and fonts, of surfaces, and of the states of a flow: as a sheet or
-//! in motion.
+//! in motion. A [`page`] tells all about a program to a browser.
 //!
 //! The same input gives the same bytes.
 
@@ -14,6 +14,7 @@ mod mesh;
 mod mesh_raster;
 mod mesh_view;
 mod outline;
+mod page;
 mod palette;
 mod program;
 mod sheet;
@@ -27,6 +28,7 @@ pub use frame::{Frame, time_captions};
 pub use mesh::{MeshStyle, mesh, meshes};
 pub use mesh_raster::Shading;
 pub use outline::outline;
+pub use page::{Difference, Outline, Page, PageFinding, PageOperation, PageProgram, PageTool, page};
 pub use program::{Scene, program};
 pub use sheet::DEFAULT_SIZE;
 pub use specimen::{SpecimenRow, specimen};

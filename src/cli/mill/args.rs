@@ -32,6 +32,10 @@ pub(in crate::cli) struct MillArgs {
     /// Make no picture
     #[arg(long)]
     pub(super) no_preview: bool,
+    /// Write the whole certificate as one HTML page too: what will differ, why and what would help, the time that rounding
+    /// saves, and the path in motion; it needs nothing but a browser
+    #[arg(long, value_name = "FILE", conflicts_with = "init")]
+    pub(super) html: Option<PathBuf>,
     /// How to print the certificate
     #[arg(long, value_enum, default_value_t = FormatArg::Text)]
     pub(super) format: FormatArg,

@@ -6,10 +6,10 @@ use anyhow::{Context as _, Result, anyhow, bail};
 
 use super::select::select;
 use super::setup_report::SetupReport;
-use super::{FormatArg, MillArgs, Verdict, target};
+use super::{FormatArg, MillArgs, Verdict, keep_page, setup_page, target};
 use crate::cam::{
-    self, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder, Setup,
-    SetupFile, Side, Step, check_operation, plan_operation, split_operations,
+    self, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, PathRadius, Planned, Program, Remainder,
+    Setup, SetupFile, Side, Step, TimeSaved, check_operation, plan_operation, split_operations,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::cli::{ExitStatus, input, output};
@@ -22,6 +22,8 @@ use crate::units::Radius;
 
 /// A program of the job, as the machine gets it.
 pub(super) struct Written {
+    /// Which it is, counted from 0.
+    pub(super) index: usize,
     pub(super) path: PathBuf,
     pub(super) text: String,
     pub(super) program: Program,
@@ -33,6 +35,10 @@ pub(super) struct Done<'a> {
     pub(super) operation: &'a Operation,
     pub(super) planned: Planned,
     pub(super) check: OperationCheck,
+    /// The motions that are its own.
+    pub(super) run: Program,
+    /// The index of the program that they are from.
+    pub(super) program: usize,
     pub(super) lost: Vec<LostFeature>,
     pub(super) path_radius: f64,
 }
@@ -46,6 +52,7 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     let target = target(args);
     output::keep_input(&args.input, &target)?;
     output::keep_input(job, &target)?;
+    keep_page(args)?;
     let shapes = args.reading.read_shapes(&args.input)?;
     let Some(mm_per_unit) = shapes.mm_per_unit else {
         bail!(
@@ -64,38 +71,42 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     };
 
     let place = |o: &Operation| format!("{}: line {}: operation \"{}\"", job.display(), o.line, o.label);
+    let drawn = |o: &Operation, holes: &[Hole]| geometry(o, &shapes, mm_per_unit, shift, holes);
     let mut planned: Vec<Planned> = Vec::new();
     let mut holes: Vec<Hole> = Vec::new();
     for operation in &setup.operations {
-        let geometry = geometry(operation, &shapes, mm_per_unit, shift, &holes).with_context(|| place(operation))?;
+        let geometry = drawn(operation, &holes).with_context(|| place(operation))?;
         let plan = plan_operation(&setup, operation, &geometry).with_context(|| place(operation))?;
         holes.extend(&plan.holes);
         planned.push(plan);
     }
-    let steps: Vec<Step> = setup
-        .operations
-        .iter()
-        .zip(&planned)
-        .map(|(o, p)| Step { label: o.label.clone(), tool: setup.tool_of(o).clone(), toolpath: p.toolpath.clone() })
-        .collect();
+    let steps = steps(&setup, &planned);
     let written = write(args, &setup, &dialect, options, &steps, &target)?;
     let done = hold_against(&setup, planned, &written)?;
     let mut unsafe_travel = beyond_travel(&setup, &written);
     unsafe_travel.extend(collisions(&setup, &written));
+    let saved = time_saved(&setup, &dialect, options, &done, &written, &drawn);
 
     let mut contents: Vec<(PathBuf, Vec<u8>)> =
         written.iter().map(|w| (w.path.clone(), w.text.clone().into_bytes())).collect();
-    if !args.no_preview && target != Path::new("-") {
-        for program in &written {
-            let picture = program.path.with_extension("png");
-            output::keep_input(&args.input, &picture)?;
-            contents.push((picture, draw(&setup, program)?));
-        }
-    }
     if target == Path::new("-") && written.len() > 1 {
         bail!("the job takes {} programs, one a tool: name a file with --output", written.len());
     }
-    output::write_together(&contents.iter().map(|(p, b)| (p.as_path(), b.as_slice())).collect::<Vec<_>>())?;
+    let has_files = target != Path::new("-");
+    let mut pictures: Vec<Option<Vec<u8>>> = vec![None; written.len()];
+    for (program, picture) in written.iter().zip(&mut pictures) {
+        if args.no_preview || !(has_files || args.html.is_some()) {
+            continue;
+        }
+        let png = draw(&setup, program)?;
+        if has_files {
+            let path = program.path.with_extension("png");
+            output::keep_input(&args.input, &path)?;
+            contents.push((path, png.clone()));
+        }
+        *picture = Some(png);
+    }
+    let files: Vec<PathBuf> = contents.iter().map(|(path, _)| path.clone()).chain(args.html.clone()).collect();
     let report = SetupReport {
         input: &args.input,
         job,
@@ -105,8 +116,13 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         accept_losses: args.accept_losses,
         written: &written,
         unsafe_travel: &unsafe_travel,
-        files: &contents.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>(),
+        saved: saved.as_ref(),
+        files: &files,
     };
+    if let Some(html) = &args.html {
+        contents.push((html.clone(), setup_page::page(&report, pictures).into_bytes()));
+    }
+    output::write_together(&contents.iter().map(|(p, b)| (p.as_path(), b.as_slice())).collect::<Vec<_>>())?;
     let text = match args.format {
         FormatArg::Text => report.text(),
         FormatArg::Json => report.json()?,
@@ -161,6 +177,53 @@ fn geometry(operation: &Operation, shapes: &Shapes, scale: f64, shift: Vector, h
     Ok(Geometry { area, lines, holes: holes.to_vec() })
 }
 
+/// What is done one after the other.
+fn steps(setup: &Setup, planned: &[Planned]) -> Vec<Step> {
+    let step = |(o, p): (&Operation, &Planned)| Step {
+        label: o.label.clone(),
+        tool: setup.tool_of(o).clone(),
+        toolpath: p.toolpath.clone(),
+    };
+    setup.operations.iter().zip(planned).map(step).collect()
+}
+
+/// What the path radii save: every operation that can be planned with sharp inside corners planned and written so, the others as
+/// they are. `None` where nothing is rounded.
+fn time_saved(
+    setup: &Setup,
+    dialect: &Dialect,
+    options: WriteOptions,
+    done: &[Done],
+    written: &[Written],
+    drawn: &impl Fn(&Operation, &[Hole]) -> Result<Geometry>,
+) -> Option<TimeSaved> {
+    let mut sharp = setup.clone();
+    for operation in &mut sharp.operations {
+        operation.cutting.path_radius = PathRadius::Length(0.0);
+    }
+    if sharp.operations == setup.operations {
+        return None;
+    }
+    let mut holes: Vec<Hole> = Vec::new();
+    let mut same_outlines = true;
+    let mut planned = Vec::new();
+    for (operation, done) in sharp.operations.iter().zip(done) {
+        let geometry = drawn(operation, &holes).ok()?;
+        let plan = plan_operation(&sharp, operation, &geometry).unwrap_or_else(|_| done.planned.clone());
+        let is_profile = matches!(operation.kind, OperationKind::Profile { rest_of: None, .. });
+        same_outlines &= !is_profile || plan.toolpath.contour_count == done.planned.toolpath.contour_count;
+        holes.extend(&plan.holes);
+        planned.push(plan);
+    }
+    let files = gcode::write_files(&steps(&sharp, &planned), &[], dialect, options).ok()?;
+    let mut saved = TimeSaved { same_outlines, ..TimeSaved::default() };
+    for (file, written) in files.iter().zip(written) {
+        let program = gcode::read_as(&file.text, dialect).ok()?;
+        saved = saved.and(&TimeSaved::between(&written.program, &program, &setup.rig.limits, setup.stock.top));
+    }
+    Some(saved)
+}
+
 /// The texts, and what they say when they are read back.
 fn write(
     args: &MillArgs,
@@ -173,7 +236,7 @@ fn write(
     let header = header(args, setup, dialect);
     let files = gcode::write_files(steps, &header, dialect, options)?;
     let mut written = Vec::with_capacity(files.len());
-    for file in files {
+    for (index, file) in files.into_iter().enumerate() {
         let path = match (file.suffix.as_str(), target.file_stem()) {
             ("", _) | (_, None) => target.to_path_buf(),
             (suffix, Some(stem)) => {
@@ -185,7 +248,7 @@ fn write(
         let findings = gcode::lint(&file.text, &LintOptions { dialect, stock_top: setup.stock.top });
         let program =
             gcode::read_as(&file.text, dialect).context("the program cannot be read back; please report this")?;
-        written.push(Written { path, text: file.text, program, findings });
+        written.push(Written { index, path, text: file.text, program, findings });
     }
     Ok(written)
 }
@@ -205,7 +268,8 @@ fn header(args: &MillArgs, setup: &Setup, dialect: &Dialect) -> Vec<String> {
 
 /// Every operation against the part of the programs that is its own.
 fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]) -> Result<Vec<Done<'a>>> {
-    let runs: Vec<Program> = written.iter().flat_map(|w| split_operations(&w.program)).collect();
+    let runs: Vec<(usize, Program)> =
+        written.iter().flat_map(|w| split_operations(&w.program).into_iter().map(|run| (w.index, run))).collect();
     if runs.len() != planned.len() {
         return Err(anyhow!(
             "the programs have {} operations and the job {}; please report this",
@@ -213,15 +277,15 @@ fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]
             planned.len()
         ));
     }
-    let all = setup.operations.iter().zip(planned).zip(&runs);
+    let all = setup.operations.iter().zip(planned).zip(runs);
     Ok(all
-        .map(|((operation, planned), run)| {
+        .map(|((operation, planned), (program, run))| {
             let tool = setup.tool_of(operation);
-            let check = check_operation(run, operation, &planned, tool, setup.stock.top, &setup.rig.limits);
+            let check = check_operation(&run, operation, &planned, tool, setup.stock.top, &setup.rig.limits);
             let acceleration = setup.rig.limits.acceleration;
             let path_radius = operation.cutting.path_radius_mm(acceleration[0].min(acceleration[1]));
             let lost = lost(operation, &planned, tool.radius() + path_radius);
-            Done { operation, planned, check, lost, path_radius }
+            Done { operation, planned, check, lost, path_radius, run, program }
         })
         .collect())
 }

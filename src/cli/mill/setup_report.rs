@@ -7,8 +7,9 @@ use anyhow::Result;
 use serde_json::json;
 
 use super::setup::{Done, Written, at};
-use crate::cam::{Notice, OperationKind, Setup, Side, estimate};
+use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, estimate};
 use crate::cli::report::{GOUGE_LIMIT, Verdict, describe};
+use crate::cli::time_words::{minutes, sharp, time_saved};
 use crate::gcode::Severity;
 
 /// All that is to be told of a job. Places are in the machine's coordinates.
@@ -21,6 +22,8 @@ pub(super) struct SetupReport<'a> {
     pub(super) accept_losses: bool,
     pub(super) written: &'a [Written],
     pub(super) unsafe_travel: &'a [String],
+    /// Against paths with sharp inside corners; `None` where nothing is rounded, or they cannot be planned.
+    pub(super) saved: Option<&'a TimeSaved>,
     pub(super) files: &'a [PathBuf],
 }
 
@@ -32,9 +35,34 @@ struct Words {
 
 impl SetupReport<'_> {
     pub(super) fn verdict(&self) -> Verdict {
-        let refused = self.written.iter().flat_map(|w| &w.findings).any(|f| f.severity == Severity::Error);
-        let failed = self.done.iter().any(|d| !words(d, self.setup, self.accept_losses).failures.is_empty());
-        if failed || refused || !self.unsafe_travel.is_empty() { Verdict::Failed } else { Verdict::Good }
+        if self.failures().is_empty() { Verdict::Good } else { Verdict::Failed }
+    }
+
+    /// What is wrong, in sentences.
+    pub(super) fn failures(&self) -> Vec<String> {
+        let mut failures = Vec::new();
+        for done in self.done {
+            let words = words(done, self.setup, self.accept_losses).failures.into_iter();
+            failures.extend(words.map(|f| format!("{}: {f}", done.check.label)));
+        }
+        failures.extend(self.unsafe_travel.iter().cloned());
+        for written in self.written {
+            if written.findings.iter().any(|f| f.severity == Severity::Error) {
+                let (name, dialect) = (written.path.display(), self.dialect);
+                failures.push(format!("{name}: {dialect} would refuse the program, or it does harm"));
+            }
+        }
+        failures
+    }
+
+    /// Whether an operation does what was asked.
+    pub(super) fn is_good(&self, done: &Done) -> bool {
+        words(done, self.setup, self.accept_losses).failures.is_empty()
+    }
+
+    /// Seconds that all programs take.
+    pub(super) fn seconds(&self) -> f64 {
+        self.written.iter().map(|w| estimate(&w.program, &self.setup.rig.limits).total_seconds()).sum()
     }
 
     pub(super) fn text(&self) -> String {
@@ -61,9 +89,10 @@ impl SetupReport<'_> {
                 check.seconds
             );
         }
-        let seconds: f64 =
-            self.written.iter().map(|w| estimate(&w.program, &self.setup.rig.limits).total_seconds()).sum();
-        let _ = writeln!(text, "{:<24}{}", "time", minutes(seconds));
+        let _ = writeln!(text, "{:<24}{}", "time", minutes(self.seconds()));
+        if let Some(saved) = self.saved {
+            let _ = writeln!(text, "{:<24}{}", "time saved", time_saved(saved));
+        }
         for done in self.done {
             let words = words(done, self.setup, self.accept_losses);
             for failure in words.failures {
@@ -120,6 +149,7 @@ impl SetupReport<'_> {
             "dialect": self.dialect,
             "operations": operations,
             "programs": programs,
+            "sharp": self.saved.map(sharp),
             "warnings": self.setup.cutting_warnings(),
             "beyond_travel": self.unsafe_travel,
             "gouge_limit_mm": GOUGE_LIMIT,
@@ -128,11 +158,6 @@ impl SetupReport<'_> {
         });
         Ok(serde_json::to_string_pretty(&value)? + "\n")
     }
-}
-
-fn minutes(seconds: f64) -> String {
-    let whole = seconds.round() as u64;
-    if whole < 60 { format!("{seconds:.1} s") } else { format!("{} min {:02} s", whole / 60, whole % 60) }
 }
 
 fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
@@ -200,12 +225,17 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
             }
         }
     }
+    notes.extend(loose_part(done, setup));
+    Words { failures, notes }
+}
+
+/// Whether a part is loose while it is finished, in words.
+pub(super) fn loose_part(done: &Done, setup: &Setup) -> Option<String> {
     let cutting = &done.operation.cutting;
     let through = setup.stock.thickness.is_some_and(|t| cutting.depth >= t);
-    if through && planned.tabs.is_empty() && cutting.onion_skin.is_none() && cutting.finish && is_profile(done) {
-        notes.push("the part is loose when its walls are finished: tabs or an onion skin hold it".to_owned());
-    }
-    Words { failures, notes }
+    let is_held = !done.planned.tabs.is_empty() || cutting.onion_skin.is_some();
+    (through && !is_held && cutting.finish && is_profile(done))
+        .then(|| "the part is loose when its walls are finished: tabs or an onion skin hold it".to_owned())
 }
 
 fn is_profile(done: &Done) -> bool {
