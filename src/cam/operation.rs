@@ -7,6 +7,7 @@ mod chamfer;
 mod drill;
 mod engrave;
 mod facing;
+mod finish;
 mod pocket;
 mod profile;
 mod raster;

@@ -3,6 +3,7 @@
 //! Rings: the exact offsets of the outline, each with the path radius, from the middle outwards; where that would leave
 //! islands, [`spurs`] take them. Raster: the outline, then parallel lines from wall to wall.
 
+use super::finish::Walls;
 use super::relief::{insert, reliefs, relieved};
 use super::spurs::spurs;
 use super::{Corners, Geometry, Keep, Level, OperationError, Planned, Work, fitted, raster};
@@ -41,7 +42,9 @@ pub(super) fn plan(
     let radius = work.tool.radius();
     let rough_distance = radius + work.cutting.allowance;
     let outline = work.level(&stays, rough_distance)?;
-    if outline.path.is_empty() {
+    let is_finished = work.cutting.allowance > 0.0 && work.cutting.finish;
+    let last = if is_finished { work.level(&stays, radius)? } else { outline.clone() };
+    if last.path.is_empty() {
         return Err(OperationError::TooLarge { diameter: work.tool.diameter });
     }
     let solid = Side::Inside.solid(&outline.closed);
@@ -77,10 +80,8 @@ pub(super) fn plan(
             }
         }
     }
-    let is_finished = work.cutting.allowance > 0.0 && work.cutting.finish;
-    let last = if is_finished { work.level(&stays, radius)? } else { outline.clone() };
     if is_finished {
-        cuts.finish(&last, radius);
+        cuts.finish(&last, radius, &outline.path, &heights);
     }
     let islands = spurs(&last.path, &paths_at(&cuts.moves, work.floor), radius);
     let mut above = work.top;
@@ -146,19 +147,21 @@ struct Cuts<'a> {
 }
 
 impl Cuts<'_> {
-    /// The walls once more, at full depth.
-    fn finish(&mut self, level: &Level, distance: f64) {
+    /// The walls once more: at full depth where the path `rough` has been beside them, else in all passes.
+    fn finish(&mut self, level: &Level, distance: f64, rough: &Region, heights: &[f64]) {
         let solid = Side::Inside.solid(&level.closed);
-        let floor = [self.work.floor];
-        let room = Room { solid: &solid, distance };
-        let laying = self.work.laying(self.work.top, &floor, Some(room), &self.geometry.holes);
-        let contours = self.work.contours(&level.path);
-        for stop in order(&contours, Point::origin()) {
-            let contour = &contours[stop.contour];
-            let entry = contour.entries[stop.entry];
-            let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };
-            laying.closed(entry.point, &contour.around_from(&entry), &TabLine::default(), &mut pen);
-            self.count += 1;
+        let walls = Walls::new(self.work, self.work.contours(&level.path), rough);
+        let at_once = Walls::heights(self.work, self.work.floor);
+        for (contours, heights) in [(&walls.roughed, at_once.as_slice()), (&walls.full, heights)] {
+            let room = Room { solid: &solid, distance };
+            let laying = self.work.laying(self.work.top, heights, Some(room), &self.geometry.holes);
+            for stop in order(contours, Point::origin()) {
+                let contour = &contours[stop.contour];
+                let entry = contour.entries[stop.entry];
+                let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };
+                laying.closed(entry.point, &contour.around_from(&entry), &TabLine::default(), &mut pen);
+                self.count += 1;
+            }
         }
     }
 
@@ -234,6 +237,9 @@ impl Cuts<'_> {
 
     /// To and fro inside of `outline`, which is cut already.
     fn raster(&mut self, outline: &Region, stepover: f64, height: f64) {
+        if outline.is_empty() {
+            return;
+        }
         let bounds = outline.bounds();
         let rows = raster::heights(bounds.min.y, bounds.max.y, stepover);
         let inner = rows.get(1..rows.len() - 1).unwrap_or_default();

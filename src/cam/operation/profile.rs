@@ -1,5 +1,6 @@
 //! Along outlines, outside, inside or on them.
 
+use super::finish::Walls;
 use super::relief::{insert, reliefs, relieved};
 use super::{Corners, Geometry, Keep, OperationError, Planned, TabPlace, Work, fitted};
 use crate::cam::lay::{Notice, Pen};
@@ -39,8 +40,10 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
         Some(rough) => {
             cuts.all(&work.contours(&rough.path), work.top, &above_skin, true);
             if work.cutting.finish {
-                let finish = finish_heights(work, &above_skin);
-                cuts.all(&contours, work.top, &finish, skin.is_none());
+                let walls = Walls::new(work, contours.clone(), &rough.path);
+                let floor = above_skin.last().copied().unwrap_or(work.floor);
+                cuts.all(&walls.roughed, work.top, &Walls::heights(work, floor), skin.is_none());
+                cuts.all(&walls.full, work.top, &above_skin, skin.is_none());
             }
         }
         None => cuts.all(&contours, work.top, &above_skin, true),
@@ -68,14 +71,6 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
         holes: Vec::new(),
         contradictions: shape.contradictions,
     })
-}
-
-/// z of the passes that cut the walls again: one, as deep as the flutes are long.
-fn finish_heights(work: &Work, rough: &[f64]) -> Vec<f64> {
-    let floor = rough.last().copied().unwrap_or(work.floor);
-    let depth = work.top - floor;
-    let count = (depth / work.tool.flute_length).ceil().max(1.0) as usize;
-    (1..=count).map(|k| work.top - depth * (k as f64 / count as f64)).collect()
 }
 
 /// The moves of a profile as they grow.
