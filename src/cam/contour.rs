@@ -52,6 +52,16 @@ impl Contour {
         parts.filter(|s| s.start != s.end).collect()
     }
 
+    /// The place of the path that is nearest to `here`; none of a place to drill.
+    pub(super) fn nearest_entry(&self, here: Point) -> Option<EntryPlace> {
+        if self.is_point() {
+            return None;
+        }
+        let near = self.path.segments().enumerate().map(|(element, s)| (element, s.nearest(here)));
+        let (element, nearest) = near.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance))?;
+        Some(EntryPlace { element, point: nearest.point })
+    }
+
     /// Whether the two rings are nested so, judged at one point of `inner`. Rings must not cross.
     pub(super) fn encloses(&self, inner: &Contour) -> bool {
         let Some(vertex) = inner.path.vertices.first() else { return false };

@@ -43,6 +43,7 @@ mod simulate;
 mod solid;
 mod stock;
 mod stock_surface;
+mod strands;
 mod stroke;
 mod sweep;
 mod tabs;

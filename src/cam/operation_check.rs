@@ -8,7 +8,7 @@ use super::certificate::{ProgramStatistics, statistics};
 use super::cone_gouge::deepest_carving;
 use super::gouge::{Gouge, deepest_cut};
 use super::islands::{Island, islands};
-use super::motion::{Motion, Program};
+use super::motion::Program;
 use super::operation::{Keep, Planned};
 use super::operation_run::OPERATION_COMMENT;
 use super::removal::{Uncut, uncut};
@@ -124,7 +124,7 @@ pub fn check_operation(
         },
         uncut,
         islands,
-        tabs: [planned.tabs.len(), planned.tabs.iter().filter(|tab| stands(program, tab)).count()],
+        tabs: [planned.tabs.len(), planned.tabs.iter().filter(|tab| stands(program, tab, tool.radius())).count()],
         holes: [planned.holes.len(), planned.holes.iter().filter(|hole| is_open(program, hole)).count()],
         passes: [heights.len(), heights_reached(program, &heights)],
         statistics,
@@ -137,12 +137,21 @@ fn heights_reached(program: &Program, heights: &[f64]) -> usize {
     heights.iter().filter(|z| reached(**z)).count()
 }
 
-/// Whether no motion cuts into a tab, and some passes over it.
-fn stands(program: &Program, tab: &super::TabPlace) -> bool {
-    let over: Vec<&Motion> =
-        program.motions.iter().filter(|m| m.is_feed() && m.trace().any(|s| s.is_nearer(tab.at, ON_TAB))).collect();
-    let lowest = over.iter().map(|m| m.lowest()).fold(f64::INFINITY, f64::min);
-    lowest.is_finite() && lowest >= tab.top - TAB_ROUNDING
+/// Whether some motion passes over a tab, and none, not even beside it, takes its middle away.
+fn stands(program: &Program, tab: &super::TabPlace, radius: f64) -> bool {
+    let reach = (radius - ON_TAB).max(ON_TAB);
+    let mut is_passed = false;
+    for motion in program.motions.iter().filter(|m| m.is_feed()) {
+        let near = |distance: f64| motion.trace().any(|s| s.is_nearer(tab.at, distance));
+        if motion.lowest() < tab.top - TAB_ROUNDING {
+            if near(reach) {
+                return false;
+            }
+        } else {
+            is_passed = is_passed || near(ON_TAB);
+        }
+    }
+    is_passed
 }
 
 /// Whether some motion at a feed reaches the bottom of a hole.

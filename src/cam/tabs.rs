@@ -1,8 +1,9 @@
 //! Pieces that are left standing to hold a part: where along a path they are, and how high the tool passes over them.
 
+use super::strands::Strands;
 use super::walk::Walk;
 use super::{TabPlaces, Tabs};
-use crate::plane::{Link, Point, Segment, turn_angle};
+use crate::plane::{Link, Point, Segment};
 
 /// Length of a tab's flank in heights of the tab: its steepest place, in the middle, then has 45 degrees.
 const FLANK: f64 = 1.5;
@@ -15,6 +16,32 @@ const TIGHT: f64 = 1.0;
 
 /// How finely places for tabs are sought along a path, in parts of its length.
 const SEARCH_STEPS: usize = 720;
+
+/// How far other strands of the path keep from the middle of a tab, in tool diameters: nearer ones leave nothing beside the
+/// path that a tab could hold on to.
+const HOLD: f64 = 0.99;
+
+/// Half of the narrowest that the way around a corner may leave of a tab, in widths of the tab.
+const NECK: f64 = 0.25;
+
+/// What is around the tabs of an operation.
+pub(super) struct Ground<'a> {
+    /// z of the floor.
+    pub floor: f64,
+    /// Diameter of the tool.
+    pub tool_diameter: f64,
+    /// How far from the start of a path, in millimetres, its tabs begin.
+    pub seam: f64,
+    /// All paths.
+    pub strands: &'a Strands,
+}
+
+impl Ground<'_> {
+    /// Half the length over which the tool stays up.
+    fn plateau(&self, tabs: &Tabs) -> f64 {
+        0.5 * (tabs.width + self.tool_diameter)
+    }
+}
 
 /// The tabs of one path.
 #[derive(Clone, Debug, Default)]
@@ -89,11 +116,11 @@ impl TabLine {
         bends
     }
 
-    /// Places tabs along `walk`, off its start, tight arcs and each other.
-    pub(super) fn place(tabs: &Tabs, walk: &Walk, floor: f64, tool_diameter: f64, seam: f64) -> Placed {
+    /// Places tabs along the path of this number, off its start, tight arcs and each other, and where no other strand takes
+    /// what they would hold on to.
+    pub(super) fn place(tabs: &Tabs, walk: &Walk, path: usize, ground: &Ground) -> Placed {
         let length = walk.length();
-        let plateau = 0.5 * (tabs.width + tool_diameter);
-        let reach = plateau + FLANK * tabs.height;
+        let reach = ground.plateau(tabs) + FLANK * tabs.height;
         let wanted: Vec<f64> = match &tabs.places {
             TabPlaces::Count(count) => evenly(*count, length),
             TabPlaces::Spacing(spacing) => evenly(((length / spacing).round() as usize).max(2), length),
@@ -101,22 +128,20 @@ impl TabLine {
                 points.iter().map(|p| walk.nearest_way(Point::new(p[0], p[1]))).filter_map(|(way, _)| way).collect()
             }
         };
-        let mut placed = Placed { asked: wanted.len(), ..Placed::default() };
-        let line = TabLine { middles: Vec::new(), plateau, top: floor + tabs.height, height: tabs.height, length };
-        placed.line = line;
-        let tight = tight_stretches(walk.segments(), TIGHT * tool_diameter);
-        let spikes = spikes(walk.segments());
+        let mut placed = Placed { asked: wanted.len(), line: TabLine::empty(tabs, walk, ground), on_arcs: 0 };
+        let half = placed.line.plateau;
+        let tight = tight_stretches(walk.segments(), TIGHT * ground.tool_diameter);
         for way in wanted {
             let free = |at: f64, arcs: bool| {
                 let clear = |middle: f64, other: f64| {
                     let apart = (at - middle).rem_euclid(length);
                     apart.min(length - apart) >= reach + other
                 };
-                let is_on_spike = spikes.iter().any(|&(a, b)| overlaps(at, plateau, a, b, length));
-                clear(0.0, seam)
-                    && !is_on_spike
+                clear(0.0, ground.seam)
                     && placed.line.middles.iter().all(|&m| clear(m, reach))
-                    && (arcs || !tight.iter().any(|&(a, b)| overlaps(at, plateau, a, b, length)))
+                    && (arcs || !tight.iter().any(|&(a, b)| overlaps(at, half, a, b, length)))
+                    && !ground.strands.pass(walk.point_at(at), path, at, HOLD * ground.tool_diameter)
+                    && stays(walk, at, half, 0.5 * ground.tool_diameter + if arcs { 0.0 } else { NECK * tabs.width })
             };
             // As near as can be to where it is wanted.
             let nearest_free = |arcs: bool| {
@@ -135,6 +160,32 @@ impl TabLine {
         placed.line.middles.sort_by(f64::total_cmp);
         placed
     }
+
+    /// The tabs of a path beside another one, whose tabs are at `points`.
+    pub(super) fn beside(tabs: &Tabs, walk: &Walk, points: &[Point], ground: &Ground) -> TabLine {
+        let mut line = TabLine::empty(tabs, walk, ground);
+        line.middles = points.iter().filter_map(|&p| walk.nearest_way(p).0).collect();
+        line.middles.sort_by(f64::total_cmp);
+        line
+    }
+
+    fn empty(tabs: &Tabs, walk: &Walk, ground: &Ground) -> TabLine {
+        TabLine {
+            middles: Vec::new(),
+            plateau: ground.plateau(tabs),
+            top: ground.floor + tabs.height,
+            height: tabs.height,
+            length: walk.length(),
+        }
+    }
+}
+
+/// Whether the path, from `half` behind `at` on around to `half` before it, keeps `distance` from the point there.
+fn stays(walk: &Walk, at: f64, half: f64, distance: f64) -> bool {
+    let low = walk.length() - 2.0 * half;
+    let middle = walk.point_at(at);
+    let start = (at + half).rem_euclid(walk.length());
+    low > 0.0 && !walk.stretch(start, low).iter().any(|s| s.is_nearer(middle, distance))
 }
 
 /// `count` places, the first half a step from the start.
@@ -163,21 +214,6 @@ fn tight_stretches(segments: &[Segment], radius: f64) -> Vec<(f64, f64)> {
     stretches
 }
 
-/// The stretches out to corners and back: the tool passes them twice, and a tab on one way would be cut on the other.
-fn spikes(segments: &[Segment]) -> Vec<(f64, f64)> {
-    let n = segments.len();
-    let mut ways = vec![0.0];
-    for segment in segments {
-        ways.push(ways[ways.len() - 1] + segment.length());
-    }
-    let turns_back =
-        |k: usize| turn_angle(segments[k].end_tangent(), segments[k + 1].start_tangent()).abs() > ABOUT_TURN;
-    (0..n.saturating_sub(1)).filter(|&k| turns_back(k)).map(|k| (ways[k], ways[k + 2])).collect()
-}
-
-/// Turns of more than this, in radians, are out and back: 170 degrees.
-const ABOUT_TURN: f64 = 2.97;
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -192,9 +228,15 @@ mod tests {
         Tabs { places, width: 6.0, height: 2.0 }
     }
 
+    fn place(tabs: &Tabs, walk: &Walk, tool_diameter: f64, seam: f64) -> Placed {
+        let mut strands = Strands::default();
+        strands.add(0, walk.segments());
+        TabLine::place(tabs, walk, 0, &Ground { floor: -6.0, tool_diameter, seam, strands: &strands })
+    }
+
     #[test]
     fn tabs_stand_evenly_and_are_as_long_and_high_as_asked() {
-        let placed = TabLine::place(&tabs(TabPlaces::Count(4)), &square(), -6.0, 3.0, 0.0);
+        let placed = place(&tabs(TabPlaces::Count(4)), &square(), 3.0, 0.0);
         assert_eq!((placed.line.count(), placed.asked, placed.on_arcs), (4, 4, 0));
         let line = &placed.line;
         // The tool, 3 wide, is up for 9: what is left at the top is 6 long.
@@ -212,18 +254,18 @@ mod tests {
     #[test]
     fn tabs_keep_off_seams_tight_arcs_and_each_other() {
         let near_seam = tabs(TabPlaces::At(vec![[1.0, 0.0], [2.0, 0.0]]));
-        let placed = TabLine::place(&near_seam, &square(), -6.0, 3.0, 5.0);
+        let placed = place(&near_seam, &square(), 3.0, 5.0);
         assert_eq!(placed.line.count(), 2);
         let points = placed.line.points(&square());
         assert!(points[0].x >= 12.4, "{points:?}");
         assert!((placed.line.middles[1] - placed.line.middles[0]).abs() >= 15.0);
         // A circle of 4 mm with tabs of 6 mm: nowhere room for six.
         let circle = Walk::new(Ring::circle(Point::origin(), 2.0).segments().collect());
-        let placed = TabLine::place(&tabs(TabPlaces::Count(6)), &circle, -6.0, 3.0, 0.0);
+        let placed = place(&tabs(TabPlaces::Count(6)), &circle, 3.0, 0.0);
         assert!(placed.line.count() < placed.asked);
         // A larger one is one tight arc all around for a tool of 30 mm, and bears a tab all the same.
         let circle = Walk::new(Ring::circle(Point::origin(), 28.0).segments().collect());
-        let placed = TabLine::place(&tabs(TabPlaces::Count(2)), &circle, -6.0, 30.0, 0.0);
+        let placed = place(&tabs(TabPlaces::Count(2)), &circle, 30.0, 0.0);
         assert_eq!((placed.line.count(), placed.on_arcs), (2, 2));
     }
 }

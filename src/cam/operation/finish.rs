@@ -2,44 +2,59 @@
 
 use super::Work;
 use crate::cam::contour::Contour;
-use crate::plane::{BoundaryIndex, Region};
+use crate::plane::{BoundaryIndex, Point, Segment};
 
 /// How much more than the allowance, in tool radii, a cut at full depth may take: in corners sharper than about 25 degrees
 /// the roughing keeps farther away than that.
 const LIGHT: f64 = 0.5;
 
-/// Places of a contour are looked at in such steps, in tool radii.
+/// Places of a path are looked at in such steps, in tool radii.
 const STEP: f64 = 0.25;
 
-/// The contours of the walls.
-pub(super) struct Walls {
-    /// Beside the roughing all along: the allowance is all that is left of them.
-    pub roughed: Vec<Contour>,
-    /// Where the roughing had no room, at some place at least: the tool would stand in the full material.
-    pub full: Vec<Contour>,
+/// Where the tool has been before the walls are cut again.
+pub(super) struct Roughing {
+    index: BoundaryIndex,
+    /// The contour of every segment of the index.
+    owners: Vec<usize>,
+    /// The most that the path along a wall may be away.
+    reach: f64,
+    step: f64,
 }
 
-impl Walls {
-    /// Sorts the contours of the walls by the roughing's path.
-    pub(super) fn new(work: &Work, contours: Vec<Contour>, rough: &Region) -> Walls {
+impl Roughing {
+    /// Of a tool that has been along `contours`.
+    pub(super) fn new(work: &Work, contours: &[Contour]) -> Roughing {
+        let all = || contours.iter().enumerate().flat_map(|(k, c)| c.path.segments().map(move |s| (k, s)));
         let radius = work.tool.radius();
-        let index = BoundaryIndex::new(rough);
-        let reach = work.cutting.allowance + LIGHT * radius;
-        let near = |p| index.nearest(p).is_some_and(|(_, nearest)| nearest.distance <= reach);
-        let beside = |contour: &Contour| {
-            contour.path.segments().all(|s| {
-                let count = (s.length() / (STEP * radius)).ceil().max(1.0) as usize;
-                (0..count).all(|k| near(s.point_at(k as f64 / count as f64)))
-            })
-        };
-        let (roughed, full) = contours.into_iter().partition(beside);
-        Walls { roughed, full }
+        Roughing {
+            index: BoundaryIndex::of_segments(all().map(|(_, s)| s).collect()),
+            owners: all().map(|(k, _)| k).collect(),
+            reach: work.cutting.allowance + LIGHT * radius,
+            step: STEP * radius,
+        }
     }
 
-    /// z of the passes along roughed walls: one, as deep as the flutes are long.
-    pub(super) fn heights(work: &Work, floor: f64) -> Vec<f64> {
-        let depth = work.top - floor;
-        let count = (depth / work.tool.flute_length).ceil().max(1.0) as usize;
-        (1..=count).map(|k| work.top - depth * (k as f64 / count as f64)).collect()
+    /// The contours that the path from `start` lies beside, so that no more than the allowance is left of its wall; none where
+    /// at some place the tool would stand in the full material.
+    pub(super) fn beside(&self, start: Point, path: &[Segment]) -> Option<Vec<usize>> {
+        let steps = path.iter().flat_map(|s| {
+            let count = (s.length() / self.step).ceil().max(1.0) as usize;
+            (0..count).map(move |k| s.point_at(k as f64 / count as f64))
+        });
+        let owner = |p: Point| {
+            let (segment, nearest) = self.index.nearest(p)?;
+            (nearest.distance <= self.reach).then(|| self.owners[segment])
+        };
+        let mut owners = [start].into_iter().chain(steps).map(owner).collect::<Option<Vec<usize>>>()?;
+        owners.sort_unstable();
+        owners.dedup();
+        Some(owners)
     }
+}
+
+/// z of the passes along walls that the roughing has been beside: one, as deep as the flutes are long.
+pub(super) fn finish_heights(work: &Work, floor: f64) -> Vec<f64> {
+    let depth = work.top - floor;
+    let count = (depth / work.tool.flute_length).ceil().max(1.0) as usize;
+    (1..=count).map(|k| work.top - depth * (k as f64 / count as f64)).collect()
 }

@@ -3,12 +3,11 @@
 //! Rings: the exact offsets of the outline, each with the path radius, from the middle outwards; where that would leave
 //! islands, [`spurs`] take them. Raster: the outline, then parallel lines from wall to wall.
 
-use super::finish::Walls;
+use super::finish::{Roughing, finish_heights};
 use super::relief::{insert, reliefs, relieved};
 use super::spurs::spurs;
 use super::{Corners, Geometry, Keep, Level, OperationError, Planned, Work, fitted, raster};
 use crate::cam::contour::Contour;
-use crate::cam::entry::EntryPlace;
 use crate::cam::lay::{Notice, Pen};
 use crate::cam::lead::Room;
 use crate::cam::order::order;
@@ -83,6 +82,7 @@ pub(super) fn plan(
     if is_finished {
         cuts.finish(&last, radius, &outline.path, &heights);
     }
+    let distance = if is_finished { radius } else { rough_distance };
     let islands = spurs(&last.path, &paths_at(&cuts.moves, work.floor), radius);
     let mut above = work.top;
     for &height in heights.iter().filter(|_| !islands.is_empty()) {
@@ -91,7 +91,7 @@ pub(super) fn plan(
     }
     let mut path = fitted(&last.path);
     let reliefs = reliefs(&stays, corners, radius, work.path_radius, &mut cuts.notices);
-    let ways = insert(&mut path, &reliefs, &mut cuts.notices);
+    let ways = insert(&mut path, &reliefs, distance - radius, &mut cuts.notices);
     let mut above = work.top;
     for &height in heights.iter().filter(|_| !ways.is_empty()) {
         ways.iter().for_each(|way| cuts.line(way.start, way.end, above, height));
@@ -99,7 +99,6 @@ pub(super) fn plan(
     }
     let Cuts { moves, notices, count, .. } = cuts;
     let remainder = Remainder::Outside;
-    let distance = if is_finished { radius } else { rough_distance };
     let keep = Keep {
         part: relieved(&geometry.area, remainder, &ways, radius),
         kept: relieved(&last.closed.reversed(), remainder, &ways, radius),
@@ -150,9 +149,14 @@ impl Cuts<'_> {
     /// The walls once more: at full depth where the path `rough` has been beside them, else in all passes.
     fn finish(&mut self, level: &Level, distance: f64, rough: &Region, heights: &[f64]) {
         let solid = Side::Inside.solid(&level.closed);
-        let walls = Walls::new(self.work, self.work.contours(&level.path), rough);
-        let at_once = Walls::heights(self.work, self.work.floor);
-        for (contours, heights) in [(&walls.roughed, at_once.as_slice()), (&walls.full, heights)] {
+        let roughing = Roughing::new(self.work, &self.work.contours(rough));
+        let is_beside = |c: &Contour| {
+            let path: Vec<_> = c.path.segments().collect();
+            c.path.vertices.first().is_some_and(|v| roughing.beside(v.point, &path).is_some())
+        };
+        let (roughed, full): (Vec<_>, Vec<_>) = self.work.contours(&level.path).into_iter().partition(is_beside);
+        let at_once = finish_heights(self.work, self.work.floor);
+        for (contours, heights) in [(&roughed, at_once.as_slice()), (&full, heights)] {
             let room = Room { solid: &solid, distance };
             let laying = self.work.laying(self.work.top, heights, Some(room), &self.geometry.holes);
             for stop in order(contours, Point::origin()) {
@@ -189,9 +193,9 @@ impl Cuts<'_> {
     fn rings(&mut self, contours: &[Contour], stops: &[usize], above: f64, height: f64) {
         for &number in stops {
             let contour = &contours[number];
-            let near = self.here(height).and_then(|here| nearest_entry(contour, here));
+            let near = self.here(height).and_then(|here| contour.nearest_entry(here));
             let joined = near.filter(|entry| self.joins(entry.point, height));
-            let path = |entry: &EntryPlace| contour.around_from(entry);
+            let path = |entry: &crate::cam::entry::EntryPlace| contour.around_from(entry);
             match joined {
                 Some(entry) => {
                     let safe = self.work.setup.rig.safe_height;
@@ -290,14 +294,4 @@ fn paths_at(moves: &[Move], z: f64) -> Vec<Vec<Segment>> {
     }
     paths.retain(|path| path.iter().any(|s| s.length() > 0.0));
     paths
-}
-
-/// The place of a contour that is nearest to `here`.
-fn nearest_entry(contour: &Contour, here: Point) -> Option<EntryPlace> {
-    if contour.is_point() {
-        return None;
-    }
-    let near = contour.path.segments().enumerate().map(|(element, s)| (element, s.nearest(here)));
-    let (element, nearest) = near.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance))?;
-    Some(EntryPlace { element, point: nearest.point })
 }

@@ -1,16 +1,18 @@
 //! Along outlines, outside, inside or on them.
 
-use super::finish::Walls;
+use super::finish::{Roughing, finish_heights};
 use super::relief::{insert, reliefs, relieved};
 use super::{Corners, Geometry, Keep, OperationError, Planned, TabPlace, Work, fitted};
+use crate::cam::entry::EntryPlace;
 use crate::cam::lay::{Notice, Pen};
 use crate::cam::lead::Room;
 use crate::cam::order::order;
 use crate::cam::solid::Solid;
-use crate::cam::tabs::TabLine;
+use crate::cam::strands::Strands;
+use crate::cam::tabs::{Ground, TabLine};
 use crate::cam::walk::Walk;
-use crate::cam::{Contour, Remainder, Side};
-use crate::plane::{Point, Region};
+use crate::cam::{Contour, Remainder, Side, Tabs};
+use crate::plane::{Point, Region, Segment};
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corners) -> Result<Planned, OperationError> {
     if geometry.area.is_empty() {
@@ -34,22 +36,50 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
     let mut path = fitted(&final_level.path);
     let corners = if side == Side::On { Corners::Round } else { corners };
     let reliefs = reliefs(&stays, corners, work.tool.radius(), work.path_radius, &mut cuts.notices);
-    let ways = insert(&mut path, &reliefs, &mut cuts.notices);
+    let ways = insert(&mut path, &reliefs, 0.0, &mut cuts.notices);
     let contours = work.contours_of(&path);
-    match &rough {
-        Some(rough) => {
-            cuts.all(&work.contours(&rough.path), work.top, &above_skin, true);
-            if work.cutting.finish {
-                let walls = Walls::new(work, contours.clone(), &rough.path);
-                let floor = above_skin.last().copied().unwrap_or(work.floor);
-                cuts.all(&walls.roughed, work.top, &Walls::heights(work, floor), skin.is_none());
-                cuts.all(&walls.full, work.top, &above_skin, skin.is_none());
-            }
+    let asked = work.cutting.tabs.as_ref();
+    let routes = match &rough {
+        None => {
+            let routes = cuts.routes(&contours, asked);
+            cuts.cut(&routes, work.top, &above_skin);
+            routes
         }
-        None => cuts.all(&contours, work.top, &above_skin, true),
-    }
+        Some(rough) if work.cutting.finish => {
+            let mut path = fitted(&rough.path);
+            insert(&mut path, &reliefs, work.cutting.allowance, &mut Vec::new());
+            let rough = work.contours_of(&path);
+            let finals = cuts.routes(&contours, asked);
+            let before = cuts.routes_beside(&rough, asked, &finals);
+            let roughing = Roughing::new(work, &rough);
+            let floor = above_skin.last().copied().unwrap_or(work.floor);
+            let at_once = finish_heights(work, floor);
+            let mut is_roughed = vec![false; before.len()];
+            // Every wall with its roughing, so that what is inside of a part is done before the part is loose.
+            for route in &finals {
+                let Some(beside) = roughing.beside(route.start, &route.path) else {
+                    cuts.cut(std::slice::from_ref(route), work.top, &above_skin);
+                    continue;
+                };
+                for k in beside {
+                    if !std::mem::replace(&mut is_roughed[k], true) {
+                        cuts.cut(&before[k..=k], work.top, &above_skin);
+                    }
+                }
+                cuts.cut(std::slice::from_ref(route), work.top, &at_once);
+            }
+            finals
+        }
+        Some(rough) => {
+            let mut path = fitted(&rough.path);
+            insert(&mut path, &reliefs, work.cutting.allowance, &mut Vec::new());
+            let routes = cuts.routes(&work.contours_of(&path), asked);
+            cuts.cut(&routes, work.top, &above_skin);
+            routes
+        }
+    };
     if let Some(skin) = skin {
-        cuts.all(&contours, skin, &[work.floor], true);
+        cuts.cut(&routes, skin, &[work.floor]);
     }
     if cuts.count == 0 {
         return Err(OperationError::TooLarge { diameter: work.tool.diameter });
@@ -101,35 +131,89 @@ impl<'a> Cuts<'a> {
         }
     }
 
-    /// All contours in a good order, each down to the last height. Tabs are told of once.
-    fn all(&mut self, contours: &[Contour], top: f64, heights: &[f64], tells: bool) {
+    /// The ways along all contours in a good order, with tabs, of which the words are told.
+    fn routes(&mut self, contours: &[Contour], asked: Option<&Tabs>) -> Vec<Route> {
+        let stops = order(contours, Point::origin());
+        let starts = stops.iter().map(|stop| (&contours[stop.contour], contours[stop.contour].entries[stop.entry]));
+        let mut routes: Vec<Route> = starts.map(|(contour, entry)| Route::new(contour, &entry)).collect();
+        let Some(asked) = asked else { return routes };
+        let mut strands = Strands::default();
+        routes.iter().enumerate().for_each(|(k, route)| strands.add(k, &route.path));
+        let ground = self.ground(&strands);
+        for (k, route) in routes.iter_mut().enumerate().filter(|(_, route)| !route.path.is_empty()) {
+            let walk = Walk::new(route.path.clone());
+            let placed = TabLine::place(asked, &walk, k, &ground);
+            let missing = placed.asked - placed.line.count();
+            if missing > 0 {
+                self.notices.push(Notice::TabsDropped(route.start, missing));
+            }
+            if placed.on_arcs > 0 {
+                self.notices.push(Notice::TabsOnArcs(route.start, placed.on_arcs));
+            }
+            let top = self.work.floor + asked.height;
+            route.middles = placed.line.points(&walk);
+            self.tabs.extend(route.middles.iter().map(|&at| TabPlace { at, top }));
+            route.tabs = placed.line;
+        }
+        routes
+    }
+
+    /// The ways along contours beside `finals`: they start where those start, and pass over the same tabs.
+    fn routes_beside(&self, contours: &[Contour], asked: Option<&Tabs>, finals: &[Route]) -> Vec<Route> {
+        let nearest = |p: Point| {
+            let distances =
+                contours.iter().map(|c| c.path.segments().map(|s| s.nearest(p).distance).fold(f64::MAX, f64::min));
+            distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
+        };
+        let starts: Vec<(Option<usize>, Point)> = finals.iter().map(|r| (nearest(r.start), r.start)).collect();
+        let middles = finals.iter().flat_map(|route| route.middles.iter());
+        let middles: Vec<(Option<usize>, Point)> = middles.map(|&p| (nearest(p), p)).collect();
+        let strands = Strands::default();
+        let ground = self.ground(&strands);
+        let route = |(k, contour): (usize, &Contour)| {
+            let own = |points: &[(Option<usize>, Point)]| -> Vec<Point> {
+                points.iter().filter(|(near, _)| *near == Some(k)).map(|(_, p)| *p).collect()
+            };
+            let start = own(&starts).first().and_then(|&p| contour.nearest_entry(p));
+            let mut route = Route::new(contour, &start.unwrap_or(contour.entries[0]));
+            if let Some(asked) = asked.filter(|_| !route.path.is_empty()) {
+                let walk = Walk::new(route.path.clone());
+                route.tabs = TabLine::beside(asked, &walk, &own(&middles), &ground);
+            }
+            route
+        };
+        contours.iter().enumerate().map(route).collect()
+    }
+
+    fn ground<'b>(&self, strands: &'b Strands) -> Ground<'b> {
+        let tool = self.work.tool;
+        Ground { floor: self.work.floor, tool_diameter: tool.diameter, seam: tool.radius(), strands }
+    }
+
+    /// Every way down to the last height.
+    fn cut(&mut self, routes: &[Route], top: f64, heights: &[f64]) {
         let room = self.has_room.then_some(Room { solid: &self.solid, distance: self.distance });
         let laying = self.work.laying(top, heights, room, &self.geometry.holes);
-        for stop in order(contours, Point::origin()) {
-            let contour = &contours[stop.contour];
-            let entry = contour.entries[stop.entry];
-            let path = contour.around_from(&entry);
-            let mut tabs = TabLine::default();
-            if let Some(asked) = self.work.cutting.tabs.as_ref().filter(|_| !path.is_empty()) {
-                let walk = Walk::new(path.clone());
-                let placed =
-                    TabLine::place(asked, &walk, self.work.floor, self.work.tool.diameter, self.work.tool.radius());
-                if tells {
-                    let top = self.work.floor + asked.height;
-                    self.tabs.extend(placed.line.points(&walk).into_iter().map(|at| TabPlace { at, top }));
-                    let missing = placed.asked - placed.line.count();
-                    if missing > 0 {
-                        self.notices.push(Notice::TabsDropped(entry.point, missing));
-                    }
-                    if placed.on_arcs > 0 {
-                        self.notices.push(Notice::TabsOnArcs(entry.point, placed.on_arcs));
-                    }
-                }
-                tabs = placed.line;
-            }
+        for route in routes {
             let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };
-            laying.closed(entry.point, &path, &tabs, &mut pen);
+            laying.closed(route.start, &route.path, &route.tabs, &mut pen);
             self.count += 1;
         }
+    }
+}
+
+/// The way around one contour.
+struct Route {
+    start: Point,
+    /// From the start to the start; empty for a place to drill.
+    path: Vec<Segment>,
+    tabs: TabLine,
+    /// The middles of its tabs.
+    middles: Vec<Point>,
+}
+
+impl Route {
+    fn new(contour: &Contour, entry: &EntryPlace) -> Route {
+        Route { start: entry.point, path: contour.around_from(entry), tabs: TabLine::default(), middles: Vec::new() }
     }
 }

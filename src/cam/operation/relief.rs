@@ -10,7 +10,7 @@ use i_overlay::float::single::SingleFloatOverlay;
 use super::Corners;
 use crate::cam::stroke::{Polygon, Stroke};
 use crate::cam::{Notice, Remainder};
-use crate::plane::{Joint, Link, Point, Region, Ring, Segment, Vertex, left_normal, turn_angle};
+use crate::plane::{BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Vertex, left_normal, turn_angle};
 
 /// Corners that turn by less than this, in radians (15 degrees), need no relief: a tool rounds them by next to nothing.
 const LEAST_TURN: f64 = 0.26;
@@ -19,7 +19,8 @@ const LEAST_TURN: f64 = 0.26;
 /// would cut more from the walls than it clears.
 const SHARPEST: f64 = 0.52;
 
-/// How much farther than its geometry says a corner may be from the path, in tool radii: the corner is hidden otherwise.
+/// How much farther than its geometry says a corner may be from the path, and how much the other walls may reach into the
+/// tool at the corner, in tool radii: the corner is hidden otherwise.
 const HIDDEN: f64 = 0.05;
 
 /// How near the tool's edge is brought to a corner, in millimetres: inside of it by this much, so that nothing stays.
@@ -37,6 +38,8 @@ pub(super) struct Relief {
     to: Point,
     /// The farthest that this may be from the path.
     reach: f64,
+    /// Sine of half of the free angle between the walls.
+    sine: f64,
 }
 
 /// The ways that a tool of `radius` takes to the inside corners of what stays, on a path of this radius.
@@ -51,6 +54,7 @@ pub(super) fn reliefs(
     if corners == Corners::Round {
         return found;
     }
+    let walls = BoundaryIndex::new(stays);
     for ring in &stays.rings {
         let n = ring.len();
         for k in 0..n {
@@ -72,24 +76,31 @@ pub(super) fn reliefs(
                 continue;
             }
             let sine = half.sin();
+            let middle = (leaving - arriving).normalize();
+            // Where the tool touches both walls: a gap that it does not fit into has no corner for it.
+            if walls.distance(corner + middle * (radius / sine)) < (1.0 - HIDDEN) * radius {
+                notices.push(Notice::CornerSkipped(corner));
+                continue;
+            }
             let to = match corners {
                 Corners::TBone => {
                     // Out of the free side of the longer wall.
                     let along = if before.length() >= after.length() { arriving } else { leaving };
                     corner - left_normal(along) * (radius - BEYOND)
                 }
-                _ => corner + (leaving - arriving).normalize() * (radius - BEYOND),
+                _ => corner + middle * (radius - BEYOND),
             };
             let reach = (radius + path_radius) * (1.0 / sine - 1.0) + radius * (HIDDEN + 1.0 / half.tan());
-            found.push(Relief { corner, to, reach });
+            found.push(Relief { corner, to, reach, sine });
         }
     }
     found
 }
 
-/// The path with the ways to the corners near it; corners that it does not come near are told.
-pub(super) fn insert(path: &mut Region, reliefs: &[Relief], notices: &mut Vec<Notice>) -> Vec<Segment> {
-    let mut ways = Vec::new();
+/// The path, which keeps `allowance` more than the tool's radius from what stays, with the ways to the corners near it;
+/// corners that it does not come near are told.
+pub(super) fn insert(path: &mut Region, reliefs: &[Relief], allowance: f64, notices: &mut Vec<Notice>) -> Vec<Segment> {
+    let mut ways: Vec<(usize, usize, Segment)> = Vec::new();
     for relief in reliefs {
         let nearest = path
             .rings
@@ -98,23 +109,33 @@ pub(super) fn insert(path: &mut Region, reliefs: &[Relief], notices: &mut Vec<No
             .flat_map(|(r, ring)| ring.segments().enumerate().map(move |(e, s)| (r, e, s.nearest(relief.to))))
             .min_by(|a, b| a.2.distance.total_cmp(&b.2.distance));
         match nearest {
-            Some((ring, element, near)) if near.distance <= relief.reach => {
+            Some((ring, element, near)) if near.distance <= relief.reach + allowance / relief.sine => {
                 if near.distance > 0.0 {
-                    spike(&mut path.rings[ring], element, near.point, relief.to);
-                    ways.push(Segment::line(near.point, relief.to));
+                    ways.push((ring, element, Segment::line(near.point, relief.to)));
                 }
             }
             _ => notices.push(Notice::CornerSkipped(relief.corner)),
         }
     }
-    ways
+    // From the last place of the path to the first, so that the places before stay what they are; all ways leave the path
+    // as it was, never each other.
+    let mut backwards: Vec<&(usize, usize, Segment)> = ways.iter().collect();
+    let along = |way: &(usize, usize, Segment)| {
+        let segment = path.rings[way.0].segment(way.1);
+        if segment.start == way.2.start { 0.0 } else { Segment { end: way.2.start, ..segment }.length() }
+    };
+    backwards.sort_by(|a, b| (b.0, b.1).cmp(&(a.0, a.1)).then(along(b).total_cmp(&along(a))));
+    let backwards: Vec<(usize, usize, Segment)> = backwards.into_iter().copied().collect();
+    for (ring, element, way) in backwards {
+        spike(&mut path.rings[ring], element, way.start, way.end);
+    }
+    ways.into_iter().map(|(_, _, way)| way).collect()
 }
 
 /// A way from `at` on an element to `to` and back.
 fn spike(ring: &mut Ring, element: usize, at: Point, to: Point) {
     let link = ring.vertices[element].link;
     let corner = |point: Point, link: Link| Vertex { point, link, joint: Joint::Corner, id: None };
-    ring.vertices[element].link = link;
     let starts_here = ring.vertices[element].point == at;
     let mut new = vec![corner(at, Link::Line), corner(to, Link::Line), corner(at, link)];
     if starts_here {
