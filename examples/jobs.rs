@@ -102,7 +102,7 @@ fn run(number: u64, is_loud: bool) -> Result<bool, String> {
     let read = gcode::read_as(&program, dialect).map_err(|e| e.to_string())?;
     let runs = split_operations(&read);
     let [own] = runs.as_slice() else { return Err(format!("{} operations", runs.len())) };
-    let check = check_operation(own, operation, &planned, setup.tool_of(operation), 0.0, &Machine::default());
+    let check = check_operation(own, operation, &planned, setup.tool_of(operation), &setup.stock, &Machine::default());
     if let Some(gouge) = check.gouge.filter(|g| g.depth_mm > GOUGE_LIMIT) {
         return Err(format!("gouge {gouge:?}\n{text}"));
     }

@@ -17,10 +17,10 @@ const SHORTEST_RAMPED: f64 = 0.5;
 const LARGEST_RAMP_ROUNDS: f64 = 50.0;
 
 /// How high above the stock the tool goes from rapid to plunge, in millimetres: sheets are rarely flatter.
-const APPROACH: f64 = 1.0;
+pub(super) const APPROACH: f64 = 1.0;
 
 /// Radius of a helix in tool radii, unless the lead's is said: nothing stays standing in its middle.
-const HELIX_RADIUS: f64 = 0.8;
+pub(super) const HELIX_RADIUS: f64 = 0.8;
 
 /// A hole that the tool may go down in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +38,8 @@ pub struct Hole {
 pub enum Notice {
     /// There is no room for a lead.
     LeadSkipped(Point),
+    /// There is room only for a lead of this radius.
+    LeadShortened(Point, f64),
     /// There is no room for a helix: the tool ramps or plunges.
     HelixSkipped(Point),
     /// No hole of the drawing is wide and deep enough and near by an open way: the tool ramps.
@@ -46,6 +48,10 @@ pub enum Notice {
     CornerSkipped(Point),
     /// A flat bottom is cleared with the tip, in paths so far apart.
     BottomCleared(f64),
+    /// A shape with its middle here is no circle and is not drilled.
+    NotRound(Point),
+    /// The circle here, of this diameter, is wider than the drill: the hole comes out as wide as the drill.
+    HoleNarrow(Point, f64),
     /// So many tabs found no place on the path that starts here.
     TabsDropped(Point, usize),
     /// So many tabs stand on tight arcs.
@@ -56,6 +62,8 @@ pub enum Notice {
 pub(super) struct Laying<'a> {
     /// z of travel.
     pub safe_height: f64,
+    /// z where rapid becomes plunge.
+    pub approach: f64,
     /// z from which the first pass goes down.
     pub top: f64,
     /// z of every pass, from the top down.
@@ -120,6 +128,13 @@ enum Descent {
     Hole(Hole),
 }
 
+/// Where the tool leaves a path.
+struct Exit {
+    /// How far along the path.
+    way: f64,
+    arc: Segment,
+}
+
 impl Laying<'_> {
     /// All passes of a closed path that starts at `start`, from the safe height back to it. A path without elements is a
     /// place to drill.
@@ -132,8 +147,8 @@ impl Laying<'_> {
             _ => start,
         };
         pen.push(first, self.safe_height, MoveKind::Rapid);
-        if self.top + APPROACH < self.safe_height {
-            pen.push(first, self.top + APPROACH, MoveKind::Rapid);
+        if self.approach < self.safe_height {
+            pen.push(first, self.approach, MoveKind::Rapid);
         }
         let Some(walk) = walk else {
             self.heights.iter().for_each(|&height| pen.push(first, height, MoveKind::Plunge));
@@ -146,7 +161,10 @@ impl Laying<'_> {
         // Where on the path the tool is.
         let mut way = 0.0;
         let mut above = self.top;
+        let exit =
+            if matches!(descent, Descent::Plunge(_)) { None } else { self.exit(&walk, &descent, tabs, pen.notices) };
         for (k, &height) in self.heights.iter().enumerate() {
+            let is_last = k + 1 == self.heights.len();
             match &descent {
                 Descent::Ramp => {
                     let length = (above - height) / RAMP_SLOPE;
@@ -171,37 +189,59 @@ impl Laying<'_> {
                     pen.follow(&[Segment::line(first, start)], height);
                 }
             }
-            self.run(&walk, way, walk.length(), [height, height], false, tabs, pen);
+            let lap = |from: f64, length: f64, pen: &mut Pen| {
+                if length > 0.0 {
+                    self.run(&walk, from, length, [height, height], false, tabs, pen);
+                }
+            };
+            let length = walk.length();
+            match &exit {
+                None => lap(way, length, pen),
+                // Out on the arc and back in every pass, so that the last one does not meet the full material there.
+                Some(exit) => {
+                    let before = (exit.way - way).rem_euclid(length);
+                    if is_last {
+                        // All around, and on to the arc.
+                        lap(way, length + before, pen);
+                        pen.follow(&[exit.arc], height);
+                    } else {
+                        lap(way, before, pen);
+                        pen.follow(&[exit.arc, exit.arc.reversed()], height);
+                        lap(exit.way, length - before, pen);
+                    }
+                }
+            }
             match &descent {
                 Descent::Plunge(Some(lead)) => pen.follow(&[lead.leaving()], height),
-                Descent::Hole(_) if k + 1 < self.heights.len() => pen.follow(&[Segment::line(start, first)], height),
+                Descent::Hole(_) if !is_last => pen.follow(&[Segment::line(start, first)], height),
                 _ => {}
             }
             above = height;
         }
-        let mut here = pen.moves.last().map_or(start, |m| m.to);
-        if !matches!(descent, Descent::Plunge(_))
-            && let Some(leaving) = self.leaving(&walk, way, tabs, pen.notices)
-        {
-            pen.follow(&[leaving], above);
-            here = leaving.end;
-        }
+        let here = pen.moves.last().map_or(start, |m| m.to);
         pen.push(here, self.safe_height, MoveKind::Rapid);
     }
 
-    /// The arc on which the tool leaves the path at `way`, where one is asked for and has room.
-    fn leaving(&self, walk: &Walk, way: f64, tabs: &TabLine, notices: &mut Vec<Notice>) -> Option<Segment> {
+    /// The arc on which the tool leaves the path behind its last pass, where one is asked for and has room.
+    fn exit(&self, walk: &Walk, descent: &Descent, tabs: &TabLine, notices: &mut Vec<Notice>) -> Option<Exit> {
         let (radius, room) = (self.lead?, self.room.as_ref()?);
-        let (at, tangent) = (walk.point_at(way), walk.tangent_at(way));
-        // The tool is up on a tab: there is no wall to be marked.
-        if tabs.lowest(way) > f64::NEG_INFINITY {
+        let last = self.heights.last().copied()?;
+        let end = match descent {
+            Descent::Ramp => (self.top - last) / RAMP_SLOPE,
+            _ => 0.0,
+        };
+        let found = tabs.clear_from(end % walk.length(), radius + 0.5 * self.tool_diameter).and_then(|way| {
+            let (at, tangent) = (walk.point_at(way), walk.tangent_at(way));
+            Lead::find(at, tangent, self.waste, radius, room, |l| vec![l.leaving()]).map(|lead| (way, lead))
+        });
+        let Some((way, lead)) = found else {
+            notices.push(Notice::LeadSkipped(walk.point_at(end)));
             return None;
+        };
+        if lead.radius < radius {
+            notices.push(Notice::LeadShortened(lead.at, lead.radius));
         }
-        let lead = Lead::find(at, tangent, self.waste, radius, room, |l| vec![l.leaving()]);
-        if lead.is_none() {
-            notices.push(Notice::LeadSkipped(at));
-        }
-        lead.map(|l| l.leaving())
+        Some(Exit { way, arc: lead.leaving() })
     }
 
     fn descent(&self, start: Point, walk: Option<&Walk>, notices: &mut Vec<Notice>) -> Descent {
@@ -242,8 +282,10 @@ impl Laying<'_> {
         let (radius, room) = (self.lead?, self.room.as_ref()?);
         let all = |l: &Lead| vec![l.arriving(), l.leaving(), l.returning()];
         let lead = Lead::find(start, tangent, self.waste, radius, room, all);
-        if lead.is_none() {
-            notices.push(Notice::LeadSkipped(start));
+        match &lead {
+            None => notices.push(Notice::LeadSkipped(start)),
+            Some(lead) if lead.radius < radius => notices.push(Notice::LeadShortened(start, lead.radius)),
+            Some(_) => {}
         }
         lead
     }
@@ -261,7 +303,6 @@ impl Laying<'_> {
     /// Along the path from `way` for `length`, z going evenly from one height to the other, but over the tabs.
     #[expect(clippy::too_many_arguments, reason = "a stretch, its heights, and what stands in its way")]
     fn run(&self, walk: &Walk, way: f64, length: f64, z: [f64; 2], falling: bool, tabs: &TabLine, pen: &mut Pen) {
-        let kind = |s: &Segment| if falling { MoveKind::Ramp(s.link) } else { MoveKind::Cut(s.link) };
         if tabs.count() == 0 {
             let elements = walk.stretch(way, length);
             if falling {
@@ -277,6 +318,8 @@ impl Laying<'_> {
         let height = |at: f64| (z[0] + (z[1] - z[0]) * ((at - way) / length)).max(tabs.lowest(at));
         for pair in stops.windows(2) {
             let (from, to) = (height(pair[0]), height(pair[1]));
+            // Down a tab's flank the tool goes into the full material, as on a ramp.
+            let kind = |s: &Segment| if falling || to < from { MoveKind::Ramp(s.link) } else { MoveKind::Cut(s.link) };
             let elements = walk.stretch(pair[0] % walk.length(), pair[1] - pair[0]);
             let whole: f64 = elements.iter().map(Segment::length).sum();
             let mut gone = 0.0;

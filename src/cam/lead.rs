@@ -19,14 +19,16 @@ pub(super) struct Room<'a> {
     pub solid: &'a Solid,
     /// How far the centre keeps from it.
     pub distance: f64,
+    /// Parts of other operations, from which it keeps as far.
+    pub others: Option<&'a Solid>,
 }
 
 impl Room<'_> {
     /// Whether the centre may run along `element`.
     pub(super) fn has(&self, element: &Segment) -> bool {
         let allowed = LEAD_TOLERANCE - self.distance;
-        let (deepest, _) = self.solid.deepest(element, allowed, 0.1 * LEAD_TOLERANCE);
-        deepest <= allowed
+        let is_free = |solid: &Solid| solid.deepest(element, allowed, 0.1 * LEAD_TOLERANCE).0 <= allowed;
+        is_free(self.solid) && self.others.is_none_or(is_free)
     }
 }
 
@@ -103,7 +105,7 @@ mod tests {
             [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(|(x, y)| Point::new(x, y)),
         )]);
         let solid = Solid::new(&part, Remainder::Inside);
-        let room = Room { solid: &solid, distance: 2.0 };
+        let room = Room { solid: &solid, distance: 2.0, others: None };
         // Below the part, going right: the part on the left, the waste on the right.
         let at = Point::new(10.0, -2.0);
         let parts = |l: &Lead| vec![l.arriving(), l.leaving(), l.returning()];
@@ -124,7 +126,7 @@ mod tests {
             Ring::polygon([(0.0, y), (40.0, y), (40.0, y + 5.0), (0.0, y + 5.0)].map(|(x, y)| Point::new(x, y)))
         };
         let solid = Solid::new(&Region::new(vec![wall(0.0), wall(11.0)]), Remainder::Inside);
-        let room = Room { solid: &solid, distance: 2.0 };
+        let room = Room { solid: &solid, distance: 2.0, others: None };
         let at = Point::new(20.0, 7.0);
         let lead = Lead::find(at, Vector::new(-1.0, 0.0), Turn::Right, 6.0, &room, |l| vec![l.arriving()]).unwrap();
         assert_eq!(lead.radius, 1.5);

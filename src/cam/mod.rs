@@ -28,6 +28,7 @@ mod lay;
 mod lead;
 mod levels;
 mod motion;
+mod nearest_next;
 mod offset;
 mod operation;
 mod operation_check;

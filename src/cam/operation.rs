@@ -16,7 +16,7 @@ mod rest;
 mod spurs;
 mod v_carve;
 
-use super::lay::Laying;
+use super::lay::{APPROACH, Laying};
 use super::lead::Room;
 use super::{
     ChamferError, Contour, Corners, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation,
@@ -44,6 +44,8 @@ pub struct Geometry {
     pub lines: Vec<CutLine>,
     /// Holes that earlier operations have drilled.
     pub holes: Vec<Hole>,
+    /// Parts beside the shapes that other operations cut out: they must not be touched.
+    pub others: Region,
 }
 
 /// What an operation must not touch.
@@ -59,6 +61,8 @@ pub struct Keep {
     pub distance: f64,
     /// z of the floor.
     pub floor: f64,
+    /// Parts beside the shapes that other operations cut out.
+    pub others: Region,
 }
 
 /// A tab that was placed.
@@ -205,6 +209,8 @@ struct Work<'a> {
     top: f64,
     /// z where it ends.
     floor: f64,
+    /// z of what tabs and skins stand on.
+    base: f64,
     path_radius: f64,
 }
 
@@ -219,6 +225,7 @@ impl<'a> Work<'a> {
             stock_top: setup.stock.top,
             top: setup.stock.top - cutting.start_depth,
             floor: setup.stock.top - cutting.depth,
+            base: cutting.base(&setup.stock),
             path_radius: cutting.path_radius_mm(acceleration),
         }
     }
@@ -226,6 +233,12 @@ impl<'a> Work<'a> {
     /// What stays, closed for a path at `distance`.
     fn level(&self, stays: &Region, distance: f64) -> Result<Level, OffsetError> {
         Level::new(stays, distance, self.path_radius, self.cutting.topology)
+    }
+
+    /// z where rapid becomes plunge: above the stock, wherever the operation starts; whether others have cleared the way is not
+    /// known.
+    fn approach(&self) -> f64 {
+        self.stock_top + APPROACH
     }
 
     fn settings(&self) -> Settings {
@@ -277,6 +290,7 @@ impl<'a> Work<'a> {
     fn laying<'b>(&'b self, top: f64, heights: &'b [f64], room: Option<Room<'b>>, holes: &'b [Hole]) -> Laying<'b> {
         Laying {
             safe_height: self.setup.rig.safe_height,
+            approach: self.approach(),
             top,
             heights,
             entry: self.cutting.entry,

@@ -12,8 +12,10 @@ use super::motion::Program;
 use super::operation::{Keep, Planned};
 use super::operation_run::OPERATION_COMMENT;
 use super::removal::{Uncut, uncut};
-use super::setup::{Operation, OperationKind};
+use super::setup::{Operation, OperationKind, Workpiece};
+use super::solid::Remainder;
 use super::time::{Machine, motion_seconds};
+use super::tool::ToolShape;
 
 /// How far a tool may pass below the top of a tab, in millimetres: rounding of the text.
 const TAB_ROUNDING: f64 = 0.002;
@@ -79,9 +81,10 @@ pub fn check_operation(
     operation: &Operation,
     planned: &Planned,
     tool: &super::Tool,
-    stock_top: f64,
+    stock: &Workpiece,
     machine: &Machine,
 ) -> OperationCheck {
+    let stock_top = stock.top;
     let against = |f: &dyn Fn(&Keep) -> Option<Gouge>| planned.keep.as_ref().and_then(f);
     let statistics = statistics(program, stock_top);
     let is_through_all = |side: Side| side != Side::On;
@@ -103,7 +106,7 @@ pub fn check_operation(
         OperationKind::Profile { .. } | OperationKind::Pocket { .. } => {
             // Above an onion skin, and through it.
             let floor = stock_top - cutting.depth;
-            let skin = cutting.onion_skin.map_or(f64::NEG_INFINITY, |skin| floor + skin);
+            let skin = cutting.onion_skin.map_or(f64::NEG_INFINITY, |skin| cutting.base(stock) + skin);
             cutting.pass_heights(stock_top).into_iter().filter(|h| *h > skin || h - floor < TAB_ROUNDING).collect()
         }
         _ => Vec::new(),
@@ -117,7 +120,10 @@ pub fn check_operation(
                 against(&|k| deepest_carving(program, &k.part, tool, stock_top - cutting.start_depth))
             }
             _ => against(&|k| deepest_cut(program, &k.part, k.remainder, k.distance, stock_top)),
-        },
+        }
+        .into_iter()
+        .chain(against(&|k| beside(program, k, tool, stock_top)))
+        .max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm)),
         overcut: match operation.kind {
             OperationKind::VCarve { .. } => None,
             _ => against(&|k| deepest_cut(program, &k.kept, k.remainder, k.distance, stock_top)),
@@ -129,6 +135,15 @@ pub fn check_operation(
         passes: [heights.len(), heights_reached(program, &heights)],
         statistics,
     }
+}
+
+/// The deepest cut into the parts of other operations.
+fn beside(program: &Program, keep: &Keep, tool: &super::Tool, stock_top: f64) -> Option<Gouge> {
+    // A cone is as wide as it is deep: it is held against its own shapes only.
+    if keep.others.is_empty() || matches!(tool.shape, ToolShape::Cone { .. }) {
+        return None;
+    }
+    deepest_cut(program, &keep.others, Remainder::Inside, tool.radius(), stock_top)
 }
 
 /// Of the heights that were asked for, those that the tool is brought down to at a feed.

@@ -2,7 +2,7 @@
 
 use crate::plane::{Point, Region, Turn, Vector};
 
-use super::lay::{Laying, Pen};
+use super::lay::{APPROACH, Laying, Pen};
 use super::lead::Room;
 use super::order::order;
 use super::tabs::TabLine;
@@ -53,6 +53,7 @@ pub fn plan(job: &Job, part: &Region, closed: &Region) -> Result<Toolpath, PlanE
     let solid = job.side.solid(&closed.translated(translation));
     let laying = Laying {
         safe_height: job.safe_height,
+        approach: job.stock_top + APPROACH,
         top: job.stock_top,
         heights: &heights,
         entry: job.entry,
@@ -60,7 +61,7 @@ pub fn plan(job: &Job, part: &Region, closed: &Region) -> Result<Toolpath, PlanE
         depth_per_pass: job.depth_per_pass,
         lead: None,
         waste: if backwards { Turn::Left } else { Turn::Right },
-        room: (job.side != Side::On).then_some(Room { solid: &solid, distance: job.offset_distance() }),
+        room: (job.side != Side::On).then_some(Room { solid: &solid, distance: job.offset_distance(), others: None }),
         holes: &[],
     };
     let mut notices = Vec::new();

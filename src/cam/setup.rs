@@ -5,7 +5,7 @@ mod locate;
 mod resolve;
 mod sample;
 
-use super::{Direction, Entry, Keepout, Machine, PathRadius, Side, Tool};
+use super::{Direction, Entry, Keepout, Machine, Origin, PathRadius, Side, Tool};
 use crate::rolling::Topology;
 use crate::units::Speed;
 pub use file::{InvalidSetup, SelectFile, SetupFile, SetupProblem, Words};
@@ -19,6 +19,8 @@ pub const SETUP_VERSION: i64 = 1;
 pub struct Workpiece {
     /// Extent along x and y, where it is known.
     pub size: Option<[f64; 2]>,
+    /// What of it, or of the drawing, is x = 0, y = 0.
+    pub zero: Origin,
     /// Thickness, where it is known.
     pub thickness: Option<f64>,
     /// z of its top.
@@ -214,7 +216,7 @@ pub struct Cutting {
     pub lead: Option<f64>,
     /// What holds the part.
     pub tabs: Option<Tabs>,
-    /// Thickness of what is left at the floor until all else is cut.
+    /// Thickness of what is left at the floor until all else of the operation is cut.
     pub onion_skin: Option<f64>,
     /// What is left at the walls for a finishing pass.
     pub allowance: f64,
@@ -229,6 +231,12 @@ impl Cutting {
             PathRadius::Auto => self.feed.mm_per_s().powi(2) / acceleration,
             PathRadius::Length(length) => length,
         }
+    }
+
+    /// z of what tabs and skins stand on: the floor of the cut, or the bottom of the stock where the cut goes through it.
+    pub fn base(&self, stock: &Workpiece) -> f64 {
+        let floor = stock.top - self.depth;
+        stock.thickness.map_or(floor, |thickness| floor.max(stock.top - thickness))
     }
 
     /// z of every pass from the top down, for a stock with its top at `stock_top`.

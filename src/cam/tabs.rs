@@ -26,8 +26,8 @@ const NECK: f64 = 0.25;
 
 /// What is around the tabs of an operation.
 pub(super) struct Ground<'a> {
-    /// z of the floor.
-    pub floor: f64,
+    /// z of what they stand on.
+    pub base: f64,
     /// Diameter of the tool.
     pub tool_diameter: f64,
     /// How far from the start of a path, in millimetres, its tabs begin.
@@ -42,6 +42,9 @@ impl Ground<'_> {
         0.5 * (tabs.width + self.tool_diameter)
     }
 }
+
+/// Rounding of lengths, relative.
+const ROUNDING: f64 = 1e-9;
 
 /// The tabs of one path.
 #[derive(Clone, Debug, Default)]
@@ -96,6 +99,24 @@ impl TabLine {
             }
         }
         lowest
+    }
+
+    /// The first place from `way` on that is at least `margin` off every tab; none where the tabs leave no such place.
+    pub(super) fn clear_from(&self, way: f64, margin: f64) -> Option<f64> {
+        let reach = self.plateau + FLANK * self.height + margin;
+        let apart = |way: f64, middle: f64| {
+            let ahead = (middle - way).rem_euclid(self.length);
+            ahead.min(self.length - ahead)
+        };
+        let mut way = way;
+        // Every tab pushes the place on at most once.
+        for _ in 0..=self.middles.len() {
+            match self.middles.iter().find(|&&m| apart(way, m) < reach * (1.0 - ROUNDING)) {
+                Some(middle) => way = (middle + reach).rem_euclid(self.length),
+                None => return Some(way),
+            }
+        }
+        None
     }
 
     /// The places between `from` and `from + length` where the way over the tabs bends, in order.
@@ -173,7 +194,7 @@ impl TabLine {
         TabLine {
             middles: Vec::new(),
             plateau: ground.plateau(tabs),
-            top: ground.floor + tabs.height,
+            top: ground.base + tabs.height,
             height: tabs.height,
             length: walk.length(),
         }
@@ -231,7 +252,7 @@ mod tests {
     fn place(tabs: &Tabs, walk: &Walk, tool_diameter: f64, seam: f64) -> Placed {
         let mut strands = Strands::default();
         strands.add(0, walk.segments());
-        TabLine::place(tabs, walk, 0, &Ground { floor: -6.0, tool_diameter, seam, strands: &strands })
+        TabLine::place(tabs, walk, 0, &Ground { base: -6.0, tool_diameter, seam, strands: &strands })
     }
 
     #[test]

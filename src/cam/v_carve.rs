@@ -37,9 +37,6 @@ const PASS_ROUNDING: f64 = 1e-9;
 /// More passes than this are a mistake in the units.
 const LARGEST_PASS_COUNT: f64 = 1000.0;
 
-/// How high above the stock the tool goes from rapid to plunge, in millimetres: sheets are rarely flatter.
-const APPROACH: f64 = 1.0;
-
 /// How to carve. Lengths are millimetres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VCarve {
@@ -214,9 +211,9 @@ fn pass_heights(spec: &VCarve, deepest: f64) -> Vec<f64> {
 }
 
 impl VCarving {
-    /// The moves of the tip: to every chain at the safe height, straight down at its start, along it, and up again. Chains
-    /// are numbered as contours.
-    pub fn moves(&self, stock_top: f64, safe_height: f64) -> Vec<Move> {
+    /// The moves of the tip: to every chain at the safe height, by rapids down to `approach` and on at a feed, along the
+    /// chain, and up again. Chains are numbered as contours.
+    pub fn moves(&self, approach: f64, safe_height: f64) -> Vec<Move> {
         let mut moves = Vec::new();
         for (contour, chain) in self.chains.iter().enumerate() {
             let (Some(first), Some(last)) = (chain.first(), chain.last()) else { continue };
@@ -224,8 +221,8 @@ impl VCarving {
                 moves.push(Move { to: Point::new(p.x, p.y), z, kind, contour });
             };
             push(first, safe_height, MoveKind::Rapid);
-            if stock_top + APPROACH < safe_height {
-                push(first, stock_top + APPROACH, MoveKind::Rapid);
+            if approach < safe_height {
+                push(first, approach, MoveKind::Rapid);
             }
             push(first, first.z, MoveKind::Plunge);
             chain.iter().skip(1).for_each(|p| push(p, p.z, MoveKind::Cut(Link::Line)));

@@ -10,6 +10,7 @@ mod chain_tree;
 mod distance;
 mod inscribed;
 mod medial_axis;
+mod overlap;
 mod pins;
 mod point;
 mod radius_field;

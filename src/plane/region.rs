@@ -88,6 +88,23 @@ impl Region {
         self.rings.iter().map(|r| r.winding_number(p)).sum::<i32>() > 0
     }
 
+    /// Every connected piece with its holes. Quadratic in the number of rings.
+    pub fn components(&self) -> Vec<Region> {
+        let (outer, holes): (Vec<&Ring>, Vec<&Ring>) = self.rings.iter().partition(|r| r.area() > 0.0);
+        let mut pieces: Vec<Region> = outer.into_iter().map(|ring| Region::new(vec![ring.clone()])).collect();
+        for hole in holes {
+            let is_around = |piece: &&mut Region| {
+                hole.vertices.first().is_some_and(|v| piece.rings[0].winding_number(v.point) != 0)
+            };
+            // The smallest of those around it.
+            let around = pieces.iter_mut().filter(|p| is_around(p));
+            if let Some(piece) = around.min_by(|a, b| a.rings[0].area().total_cmp(&b.rings[0].area())) {
+                piece.rings.push(hole.clone());
+            }
+        }
+        pieces
+    }
+
     /// Outer rings and holes, told apart by the sign of their area.
     pub fn topology(&self) -> TopologyCount {
         let components = self.rings.iter().filter(|r| r.area() > 0.0).count();

@@ -1,7 +1,8 @@
 //! Round holes.
 
 use super::{Geometry, Keep, OperationError, Planned, Work};
-use crate::cam::lay::{Hole, Pen, RAMP_SLOPE};
+use crate::cam::lay::{Hole, Notice, Pen, RAMP_SLOPE};
+use crate::cam::nearest_next::nearest_next;
 use crate::cam::{MoveKind, Remainder};
 use crate::plane::{Arc, Link, Point, Region, Ring, Segment, Turn};
 
@@ -14,9 +15,6 @@ const DRILLED: f64 = 0.02;
 
 /// What is left between the tool and the bottom that it has drilled when it comes back down, in millimetres.
 const PECK_CLEARANCE: f64 = 0.5;
-
-/// How high above the stock the tool goes from rapid to plunge, in millimetres.
-const APPROACH: f64 = 1.0;
 
 /// The circle that a ring is: its centre and diameter.
 pub(super) fn circle(ring: &Ring) -> Option<(Point, f64)> {
@@ -32,6 +30,11 @@ pub(super) fn circle(ring: &Ring) -> Option<(Point, f64)> {
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, peck: Option<f64>) -> Result<Planned, OperationError> {
     let found: Vec<(Point, f64)> = geometry.area.rings.iter().filter_map(circle).collect();
+    let mut notices = Vec::new();
+    // A plate whose holes are drilled has an outline that is no hole.
+    let is_hole = |ring: &&Ring| geometry.area.rings.len() == 1 || !has_holes(&geometry.area, ring);
+    let others = geometry.area.rings.iter().filter(|ring| circle(ring).is_none()).filter(is_hole);
+    notices.extend(others.map(|ring| Notice::NotRound(ring.bounds().center())));
     if found.is_empty() {
         return Err(OperationError::NoCircles);
     }
@@ -40,14 +43,23 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, peck: Option<f64>) -> Resul
     if let Some(&(at, hole)) = found.iter().find(|(_, d)| *d < diameter - DRILLED) {
         return Err(OperationError::HoleTooSmall { at, hole, diameter });
     }
+    // Through the stock with the full diameter: the tip comes out below.
+    let tip = if work.tool.is_drill && work.floor < work.base {
+        work.tool.height_at(work.tool.radius()).unwrap_or(0.0)
+    } else {
+        0.0
+    };
+    let floor = work.floor - tip;
     let mut moves = work.first_moves();
-    let mut notices = Vec::new();
-    let order = nearest_next(&found);
-    for (number, &k) in order.iter().enumerate() {
-        let (center, hole) = found[k];
+    let centers: Vec<[Point; 2]> = found.iter().map(|&(center, _)| [center, center]).collect();
+    for (number, next) in nearest_next(&centers, false, Point::origin()).iter().enumerate() {
+        let (center, hole) = found[next.path];
         let mut pen = Pen { moves: &mut moves, notices: &mut notices, contour: number };
+        if work.tool.is_drill && hole > diameter + DRILLED {
+            pen.notices.push(Notice::HoleNarrow(center, hole));
+        }
         if work.tool.is_drill || hole <= diameter + DRILLED {
-            drill(work, center, peck, &mut pen);
+            drill(work, center, floor, peck, &mut pen);
         } else {
             bore(work, center, 0.5 * (hole - diameter), &mut pen);
         }
@@ -56,7 +68,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, peck: Option<f64>) -> Resul
     let area = Region::new(rings.collect());
     let hole = |&(center, d): &(Point, f64)| {
         let diameter = if work.tool.is_drill { diameter } else { d };
-        Hole { center, diameter, bottom: work.floor }
+        Hole { center, diameter, bottom: if work.tool.is_drill { floor } else { work.floor } }
     };
     Ok(Planned {
         toolpath: work.toolpath(moves, found.len()),
@@ -66,6 +78,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, peck: Option<f64>) -> Resul
             remainder: Remainder::Outside,
             distance: work.tool.radius(),
             floor: work.floor,
+            others: geometry.others.clone(),
         }),
         notices,
         tabs: Vec::new(),
@@ -74,27 +87,18 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, peck: Option<f64>) -> Resul
     })
 }
 
-/// The order of the holes: always the nearest next, the first of equals.
-fn nearest_next(found: &[(Point, f64)]) -> Vec<usize> {
-    let mut left: Vec<usize> = (0..found.len()).collect();
-    let mut order = Vec::with_capacity(left.len());
-    let mut here = Point::origin();
-    while !left.is_empty() {
-        let distance = |k: usize| (found[k].0 - here).norm();
-        let nearest = (0..left.len()).min_by(|&a, &b| distance(left[a]).total_cmp(&distance(left[b]))).unwrap_or(0);
-        let k = left.remove(nearest);
-        here = found[k].0;
-        order.push(k);
-    }
-    order
+/// Whether a ring lies around others.
+fn has_holes(area: &Region, ring: &Ring) -> bool {
+    let is_inside = |other: &Ring| other.vertices.first().is_some_and(|v| ring.winding_number(v.point) != 0);
+    area.rings.iter().any(|other| !std::ptr::eq(other, ring) && is_inside(other))
 }
 
-fn drill(work: &Work, center: Point, peck: Option<f64>, pen: &mut Pen) {
+fn drill(work: &Work, center: Point, floor: f64, peck: Option<f64>, pen: &mut Pen) {
     let safe = work.setup.rig.safe_height;
-    let approach = (work.top + APPROACH).min(safe);
+    let approach = work.approach().min(safe);
     pen.push(center, safe, MoveKind::Rapid);
     pen.push(center, approach, MoveKind::Rapid);
-    let depth = work.top - work.floor;
+    let depth = work.top - floor;
     let count = peck.map_or(1.0, |p| (depth / p - 1e-9).ceil().max(1.0)) as usize;
     for k in 1..=count {
         if k > 1 {
@@ -126,7 +130,7 @@ fn bore(work: &Work, center: Point, radius: f64, pen: &mut Pen) {
     let inner = circle(ring(1));
     let start = inner[0].start;
     pen.push(start, safe, MoveKind::Rapid);
-    pen.push(start, (work.top + APPROACH).min(safe), MoveKind::Rapid);
+    pen.push(start, work.approach().min(safe), MoveKind::Rapid);
     pen.push(start, work.top, MoveKind::Plunge);
     let mut above = work.top;
     for height in work.cutting.pass_heights(work.stock_top) {

@@ -2,13 +2,11 @@
 
 use super::{CutLine, Geometry, OperationError, Planned, Work};
 use crate::cam::lay::Pen;
+use crate::cam::nearest_next::nearest_next;
 use crate::cam::order::order;
 use crate::cam::tabs::TabLine;
 use crate::cam::{Contour, MoveKind, fit_arcs};
-use crate::plane::{Point, Segment};
-
-/// How high above the stock the tool goes from rapid to plunge, in millimetres.
-const APPROACH: f64 = 1.0;
+use crate::plane::{Link, Point, Segment};
 
 pub(super) fn plan(work: &Work, geometry: &Geometry) -> Result<Planned, OperationError> {
     let outlines = geometry.area.rings.iter().map(|ring| CutLine { ring: ring.clone(), is_closed: true });
@@ -31,19 +29,13 @@ pub(super) fn plan(work: &Work, geometry: &Geometry) -> Result<Planned, Operatio
         count += 1;
     }
     let mut paths: Vec<Vec<Segment>> = open.iter().map(|l| open_path(l)).filter(|p| !p.is_empty()).collect();
-    let mut here = moves.last().map_or(Point::origin(), |m| m.to);
-    while !paths.is_empty() {
-        // The nearest end of all that are left; the first of equals.
-        let ends = paths.iter().enumerate().flat_map(|(k, p)| {
-            let last = p.len() - 1;
-            [(k, false, p[0].start), (k, true, p[last].end)]
-        });
-        let nearest = ends.min_by(|a, b| (a.2 - here).norm().total_cmp(&(b.2 - here).norm()));
-        let Some((k, turned, _)) = nearest else { break };
-        let path = paths.remove(k);
-        let path = if turned { reversed(&path) } else { path };
+    let here = moves.last().map_or(Point::origin(), |m| m.to);
+    let ends: Vec<[Point; 2]> = paths.iter().map(|p| [p[0].start, p[p.len() - 1].end]).collect();
+    for next in nearest_next(&ends, true, here) {
+        let path = std::mem::take(&mut paths[next.path]);
+        let path = if next.is_turned { reversed(&path) } else { path };
         let mut pen = Pen { moves: &mut moves, notices: &mut notices, contour: count };
-        here = follow(work, &path, &heights, &mut pen);
+        follow(work, &path, &heights, &mut pen);
         count += 1;
     }
     Ok(Planned {
@@ -58,33 +50,31 @@ pub(super) fn plan(work: &Work, geometry: &Geometry) -> Result<Planned, Operatio
 
 /// The elements of an open line, with arcs where chords stand for them.
 fn open_path(line: &CutLine) -> Vec<Segment> {
-    let fitted = fit_arcs(&line.ring);
-    let end = line.ring.vertices.last().map(|v| v.point);
-    let start = line.ring.vertices.first().map(|v| v.point);
-    // Fitting may begin elsewhere: the line runs from its own start to its own end.
-    let elements: Vec<Segment> = fitted.segments().collect();
-    let Some(first) = elements.iter().position(|s| Some(s.start) == start) else { return Vec::new() };
+    let (Some(first), Some(last)) = (line.ring.vertices.first(), line.ring.vertices.last()) else { return Vec::new() };
+    let elements: Vec<Segment> = fit_arcs(&line.ring).segments().collect();
     let n = elements.len();
-    let around = (0..n).map(|k| elements[(first + k) % n]);
-    let mut path: Vec<Segment> = around.collect();
-    if let Some(last) = path.iter().position(|s| Some(s.end) == end) {
-        path.truncate(last + 1);
+    // Fitting may begin elsewhere: the line runs from behind the element that leads from its end back to its start. A line
+    // may pass its own ends before, so that they alone do not tell.
+    let closes = |s: &Segment| s.start == last.point && s.end == first.point && s.link == Link::Line;
+    match elements.iter().position(closes) {
+        Some(closing) => (1..n).map(|k| elements[(closing + k) % n]).collect(),
+        // Fitting has taken the way back into an arc, or dropped it: the line as it is drawn.
+        None => line.ring.segments().take(line.ring.len() - 1).collect(),
     }
-    path
 }
 
 fn reversed(path: &[Segment]) -> Vec<Segment> {
     path.iter().rev().map(Segment::reversed).collect()
 }
 
-/// To and fro along an open path, a pass each; where the tool ends.
-fn follow(work: &Work, path: &[Segment], heights: &[f64], pen: &mut Pen) -> Point {
+/// To and fro along an open path, a pass each.
+fn follow(work: &Work, path: &[Segment], heights: &[f64], pen: &mut Pen) {
     let safe = work.setup.rig.safe_height;
     let mut way = path.to_vec();
     let start = way[0].start;
     pen.push(start, safe, MoveKind::Rapid);
-    if work.top + APPROACH < safe {
-        pen.push(start, work.top + APPROACH, MoveKind::Rapid);
+    if work.approach() < safe {
+        pen.push(start, work.approach(), MoveKind::Rapid);
     }
     for &height in heights {
         pen.push(way[0].start, height, MoveKind::Plunge);
@@ -95,5 +85,4 @@ fn follow(work: &Work, path: &[Segment], heights: &[f64], pen: &mut Pen) -> Poin
     }
     let end = way[0].start;
     pen.push(end, safe, MoveKind::Rapid);
-    end
 }

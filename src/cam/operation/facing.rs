@@ -1,16 +1,23 @@
 //! The top of the stock made flat.
 
 use super::{Geometry, OperationError, Planned, Work, raster};
-use crate::cam::MoveKind;
 use crate::cam::lay::Pen;
-use crate::plane::{Bounds, Link, Point};
+use crate::cam::{MoveKind, Origin};
+use crate::plane::{Bounds, Link, Point, Vector};
 
 /// How far the tool goes beyond the edge of the stock, in tool radii: it comes down beside it.
 const OVERRUN: f64 = 1.2;
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, stepover: f64) -> Result<Planned, OperationError> {
     let bounds = match work.setup.stock.size {
-        Some([width, height]) => Bounds::of_points([Point::origin(), Point::new(width, height)]),
+        Some([width, height]) => {
+            let size = Vector::new(width, height);
+            let corner = match work.setup.stock.zero {
+                Origin::Center => Point::from(-0.5 * size),
+                Origin::Corner | Origin::Drawing => Point::origin(),
+            };
+            Bounds::of_points([corner, corner + size])
+        }
         None => geometry.area.bounds(),
     };
     if bounds.is_empty() {

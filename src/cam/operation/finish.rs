@@ -29,9 +29,14 @@ impl Roughing {
         Roughing {
             index: BoundaryIndex::of_segments(all().map(|(_, s)| s).collect()),
             owners: all().map(|(k, _)| k).collect(),
-            reach: work.cutting.allowance + LIGHT * radius,
+            reach: Roughing::reach(work),
             step: STEP * radius,
         }
+    }
+
+    /// The most that the path along a wall may be away from the roughing.
+    pub(super) fn reach(work: &Work) -> f64 {
+        work.cutting.allowance + LIGHT * work.tool.radius()
     }
 
     /// The contours that the path from `start` lies beside, so that no more than the allowance is left of its wall; none where
@@ -50,11 +55,4 @@ impl Roughing {
         owners.dedup();
         Some(owners)
     }
-}
-
-/// z of the passes along walls that the roughing has been beside: one, as deep as the flutes are long.
-pub(super) fn finish_heights(work: &Work, floor: f64) -> Vec<f64> {
-    let depth = work.top - floor;
-    let count = (depth / work.tool.flute_length).ceil().max(1.0) as usize;
-    (1..=count).map(|k| work.top - depth * (k as f64 / count as f64)).collect()
 }

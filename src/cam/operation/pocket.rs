@@ -3,7 +3,8 @@
 //! Rings: the exact offsets of the outline, each with the path radius, from the middle outwards; where that would leave
 //! islands, [`spurs`] take them. Raster: the outline, then parallel lines from wall to wall.
 
-use super::finish::{Roughing, finish_heights};
+use super::finish::Roughing;
+use super::profile::steps;
 use super::relief::{insert, reliefs, relieved};
 use super::spurs::spurs;
 use super::{Corners, Geometry, Keep, Level, OperationError, Planned, Work, fitted, raster};
@@ -50,7 +51,7 @@ pub(super) fn plan(
     let mut cuts = Cuts {
         work,
         geometry,
-        room: Room { solid: &solid, distance: rough_distance },
+        room: Room { solid: &solid, distance: rough_distance, others: None },
         join: LONGEST_JOIN * stepover,
         moves: work.first_moves(),
         notices: Vec::new(),
@@ -91,7 +92,7 @@ pub(super) fn plan(
     }
     let mut path = fitted(&last.path);
     let reliefs = reliefs(&stays, corners, radius, work.path_radius, &mut cuts.notices);
-    let ways = insert(&mut path, &reliefs, distance - radius, &mut cuts.notices);
+    let ways = insert(&mut path, &reliefs, &mut cuts.notices);
     let mut above = work.top;
     for &height in heights.iter().filter(|_| !ways.is_empty()) {
         ways.iter().for_each(|way| cuts.line(way.start, way.end, above, height));
@@ -105,6 +106,7 @@ pub(super) fn plan(
         remainder,
         distance,
         floor: work.floor,
+        others: geometry.others.clone(),
     };
     Ok(Planned {
         toolpath: work.toolpath(moves, count),
@@ -155,9 +157,9 @@ impl Cuts<'_> {
             c.path.vertices.first().is_some_and(|v| roughing.beside(v.point, &path).is_some())
         };
         let (roughed, full): (Vec<_>, Vec<_>) = self.work.contours(&level.path).into_iter().partition(is_beside);
-        let at_once = finish_heights(self.work, self.work.floor);
+        let at_once = steps(self.work.top, self.work.floor, self.work.tool.flute_length);
         for (contours, heights) in [(&roughed, at_once.as_slice()), (&full, heights)] {
-            let room = Room { solid: &solid, distance };
+            let room = Room { solid: &solid, distance, others: None };
             let laying = self.work.laying(self.work.top, heights, Some(room), &self.geometry.holes);
             for stop in order(contours, Point::origin()) {
                 let contour = &contours[stop.contour];
@@ -209,7 +211,7 @@ impl Cuts<'_> {
                     // Never empty.
                     let Some(entry) = contour.entries.first().copied() else { continue };
                     let heights = [height];
-                    let room = Room { solid: self.room.solid, distance: self.room.distance };
+                    let room = Room { solid: self.room.solid, distance: self.room.distance, others: None };
                     let mut laying = self.work.laying(above, &heights, Some(room), &self.geometry.holes);
                     laying.lead = None;
                     let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };

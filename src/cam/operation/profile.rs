@@ -1,17 +1,17 @@
 //! Along outlines, outside, inside or on them.
 
-use super::finish::{Roughing, finish_heights};
-use super::relief::{insert, reliefs, relieved};
+use super::finish::Roughing;
+use super::relief::{insert, insert_ways, reliefs, relieved};
 use super::{Corners, Geometry, Keep, OperationError, Planned, TabPlace, Work, fitted};
 use crate::cam::entry::EntryPlace;
-use crate::cam::lay::{Notice, Pen};
+use crate::cam::lay::{HELIX_RADIUS, Notice, Pen};
 use crate::cam::lead::Room;
 use crate::cam::order::order;
 use crate::cam::solid::Solid;
 use crate::cam::strands::Strands;
 use crate::cam::tabs::{Ground, TabLine};
 use crate::cam::walk::Walk;
-use crate::cam::{Contour, Remainder, Side, Tabs};
+use crate::cam::{Contour, Entry, Remainder, Side, Tabs};
 use crate::plane::{Point, Region, Segment};
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corners) -> Result<Planned, OperationError> {
@@ -27,7 +27,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
     };
     let mut cuts = Cuts::new(work, geometry, &final_level.closed, distance, side);
     let heights = work.cutting.pass_heights(work.stock_top);
-    let skin = work.cutting.onion_skin.map(|skin| work.floor + skin);
+    let skin = work.cutting.onion_skin.map(|skin| work.base + skin);
     // Everything down to the skin, if there is one; then the walls; then the skin.
     let above_skin: Vec<f64> = match skin {
         Some(skin) => heights.iter().copied().filter(|h| *h > skin).chain([skin]).collect(),
@@ -36,7 +36,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
     let mut path = fitted(&final_level.path);
     let corners = if side == Side::On { Corners::Round } else { corners };
     let reliefs = reliefs(&stays, corners, work.tool.radius(), work.path_radius, &mut cuts.notices);
-    let ways = insert(&mut path, &reliefs, 0.0, &mut cuts.notices);
+    let ways = insert(&mut path, &reliefs, &mut cuts.notices);
     let contours = work.contours_of(&path);
     let asked = work.cutting.tabs.as_ref();
     let routes = match &rough {
@@ -47,13 +47,14 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
         }
         Some(rough) if work.cutting.finish => {
             let mut path = fitted(&rough.path);
-            insert(&mut path, &reliefs, work.cutting.allowance, &mut Vec::new());
+            insert_ways(&mut path, &ways, Roughing::reach(work));
             let rough = work.contours_of(&path);
             let finals = cuts.routes(&contours, asked);
             let before = cuts.routes_beside(&rough, asked, &finals);
             let roughing = Roughing::new(work, &rough);
             let floor = above_skin.last().copied().unwrap_or(work.floor);
-            let at_once = finish_heights(work, floor);
+            // Walls that the roughing has been beside: one pass, as deep as the flutes are long.
+            let at_once = steps(work.top, floor, work.tool.flute_length);
             let mut is_roughed = vec![false; before.len()];
             // Every wall with its roughing, so that what is inside of a part is done before the part is loose.
             for route in &finals {
@@ -66,20 +67,20 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
                         cuts.cut(&before[k..=k], work.top, &above_skin);
                     }
                 }
-                cuts.cut(std::slice::from_ref(route), work.top, &at_once);
+                cuts.finish(std::slice::from_ref(route), work.top, &at_once);
             }
             finals
         }
         Some(rough) => {
             let mut path = fitted(&rough.path);
-            insert(&mut path, &reliefs, work.cutting.allowance, &mut Vec::new());
+            insert_ways(&mut path, &ways, Roughing::reach(work));
             let routes = cuts.routes(&work.contours_of(&path), asked);
             cuts.cut(&routes, work.top, &above_skin);
             routes
         }
     };
     if let Some(skin) = skin {
-        cuts.cut(&routes, skin, &[work.floor]);
+        cuts.cut(&routes, skin, &steps(skin, work.floor, work.cutting.depth_per_pass));
     }
     if cuts.count == 0 {
         return Err(OperationError::TooLarge { diameter: work.tool.diameter });
@@ -92,7 +93,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
     };
     let part = relieved(&geometry.area, remainder, &ways, work.tool.radius());
     let kept = relieved(&kept, remainder, &ways, work.tool.radius());
-    let keep = Keep { part, kept, remainder, distance, floor: work.floor };
+    let keep = Keep { part, kept, remainder, distance, floor: work.floor, others: geometry.others.clone() };
     Ok(Planned {
         toolpath: work.toolpath(cuts.moves, cuts.count),
         keep: Some(keep),
@@ -103,11 +104,19 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
     })
 }
 
+/// z of even passes from `top` down to `floor`, none thicker than `thickest`.
+pub(super) fn steps(top: f64, floor: f64, thickest: f64) -> Vec<f64> {
+    let depth = top - floor;
+    let count = (depth / thickest).ceil().max(1.0) as usize;
+    (1..=count).map(|k| top - depth * (k as f64 / count as f64)).collect()
+}
+
 /// The moves of a profile as they grow.
 struct Cuts<'a> {
     work: &'a Work<'a>,
     geometry: &'a Geometry,
     solid: Solid,
+    others: Solid,
     distance: f64,
     has_room: bool,
     moves: Vec<crate::cam::Move>,
@@ -122,6 +131,7 @@ impl<'a> Cuts<'a> {
             work,
             geometry,
             solid: side.solid(closed),
+            others: Solid::new(&geometry.others, Remainder::Inside),
             distance,
             has_room: side != Side::On,
             moves: work.first_moves(),
@@ -150,7 +160,7 @@ impl<'a> Cuts<'a> {
             if placed.on_arcs > 0 {
                 self.notices.push(Notice::TabsOnArcs(route.start, placed.on_arcs));
             }
-            let top = self.work.floor + asked.height;
+            let top = self.work.base + asked.height;
             route.middles = placed.line.points(&walk);
             self.tabs.extend(route.middles.iter().map(|&at| TabPlace { at, top }));
             route.tabs = placed.line;
@@ -187,13 +197,28 @@ impl<'a> Cuts<'a> {
 
     fn ground<'b>(&self, strands: &'b Strands) -> Ground<'b> {
         let tool = self.work.tool;
-        Ground { floor: self.work.floor, tool_diameter: tool.diameter, seam: tool.radius(), strands }
+        // What the tool takes beside the start on its way down and up.
+        let beside = match self.work.cutting.entry {
+            Entry::Helix => self.work.cutting.lead.unwrap_or(HELIX_RADIUS * tool.radius()),
+            _ => self.work.cutting.lead.unwrap_or(0.0),
+        };
+        Ground { base: self.work.base, tool_diameter: tool.diameter, seam: tool.radius() + beside, strands }
     }
 
     /// Every way down to the last height.
     fn cut(&mut self, routes: &[Route], top: f64, heights: &[f64]) {
-        let room = self.has_room.then_some(Room { solid: &self.solid, distance: self.distance });
-        let laying = self.work.laying(top, heights, room, &self.geometry.holes);
+        self.cut_with(routes, top, heights, self.work.cutting.lead);
+    }
+
+    /// The same of walls that have been roughed: leads stay where the roughing has been.
+    fn finish(&mut self, routes: &[Route], top: f64, heights: &[f64]) {
+        self.cut_with(routes, top, heights, self.work.cutting.lead.map(|lead| lead.min(self.work.cutting.allowance)));
+    }
+
+    fn cut_with(&mut self, routes: &[Route], top: f64, heights: &[f64], lead: Option<f64>) {
+        let room = Room { solid: &self.solid, distance: self.distance, others: Some(&self.others) };
+        let mut laying = self.work.laying(top, heights, self.has_room.then_some(room), &self.geometry.holes);
+        laying.lead = lead;
         for route in routes {
             let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };
             laying.closed(route.start, &route.path, &route.tabs, &mut pen);

@@ -38,8 +38,6 @@ pub(super) struct Relief {
     to: Point,
     /// The farthest that this may be from the path.
     reach: f64,
-    /// Sine of half of the free angle between the walls.
-    sine: f64,
 }
 
 /// The ways that a tool of `radius` takes to the inside corners of what stays, on a path of this radius.
@@ -91,59 +89,95 @@ pub(super) fn reliefs(
                 _ => corner + middle * (radius - BEYOND),
             };
             let reach = (radius + path_radius) * (1.0 / sine - 1.0) + radius * (HIDDEN + 1.0 / half.tan());
-            found.push(Relief { corner, to, reach, sine });
+            found.push(Relief { corner, to, reach });
         }
     }
     found
 }
 
-/// The path, which keeps `allowance` more than the tool's radius from what stays, with the ways to the corners near it;
-/// corners that it does not come near are told.
-pub(super) fn insert(path: &mut Region, reliefs: &[Relief], allowance: f64, notices: &mut Vec<Notice>) -> Vec<Segment> {
-    let mut ways: Vec<(usize, usize, Segment)> = Vec::new();
+/// The path with the ways to the corners near it; corners that it does not come near are told.
+pub(super) fn insert(path: &mut Region, reliefs: &[Relief], notices: &mut Vec<Notice>) -> Vec<Segment> {
+    let mut spikes = Vec::new();
     for relief in reliefs {
-        let nearest = path
-            .rings
-            .iter()
-            .enumerate()
-            .flat_map(|(r, ring)| ring.segments().enumerate().map(move |(e, s)| (r, e, s.nearest(relief.to))))
-            .min_by(|a, b| a.2.distance.total_cmp(&b.2.distance));
-        match nearest {
-            Some((ring, element, near)) if near.distance <= relief.reach + allowance / relief.sine => {
-                if near.distance > 0.0 {
-                    ways.push((ring, element, Segment::line(near.point, relief.to)));
+        match Place::nearest(path, relief.to) {
+            Some(place) if place.distance <= relief.reach => {
+                if place.distance > 0.0 {
+                    spikes.push(Spike { place, to: vec![relief.to] });
                 }
             }
             _ => notices.push(Notice::CornerSkipped(relief.corner)),
         }
     }
-    // From the last place of the path to the first, so that the places before stay what they are; all ways leave the path
-    // as it was, never each other.
-    let mut backwards: Vec<&(usize, usize, Segment)> = ways.iter().collect();
-    let along = |way: &(usize, usize, Segment)| {
-        let segment = path.rings[way.0].segment(way.1);
-        if segment.start == way.2.start { 0.0 } else { Segment { end: way.2.start, ..segment }.length() }
-    };
-    backwards.sort_by(|a, b| (b.0, b.1).cmp(&(a.0, a.1)).then(along(b).total_cmp(&along(a))));
-    let backwards: Vec<(usize, usize, Segment)> = backwards.into_iter().copied().collect();
-    for (ring, element, way) in backwards {
-        spike(&mut path.rings[ring], element, way.start, way.end);
-    }
-    ways.into_iter().map(|(_, _, way)| way).collect()
+    let ways = spikes.iter().map(|spike| Segment::line(spike.place.at, spike.to[0])).collect();
+    insert_all(path, spikes);
+    ways
 }
 
-/// A way from `at` on an element to `to` and back.
-fn spike(ring: &mut Ring, element: usize, at: Point, to: Point) {
-    let link = ring.vertices[element].link;
-    let corner = |point: Point, link: Link| Vertex { point, link, joint: Joint::Corner, id: None };
-    let starts_here = ring.vertices[element].point == at;
-    let mut new = vec![corner(at, Link::Line), corner(to, Link::Line), corner(at, link)];
-    if starts_here {
-        // The element begins after the way.
-        ring.vertices[element].link = Link::Line;
-        new.remove(0);
+/// The path of the roughing, no farther than `reach` from where `ways` begin, with the same ways.
+pub(super) fn insert_ways(path: &mut Region, ways: &[Segment], reach: f64) {
+    let near = ways.iter().filter_map(|way| Some((Place::nearest(path, way.start)?, way)));
+    let spikes = near
+        .filter(|(place, _)| place.distance <= reach)
+        .map(|(place, way)| Spike { place, to: vec![way.start, way.end] })
+        .collect();
+    insert_all(path, spikes);
+}
+
+/// A place of a path.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    ring: usize,
+    element: usize,
+    at: Point,
+    /// Length of the element up to the place.
+    before: f64,
+    /// How far it is from what it was sought for.
+    distance: f64,
+}
+
+impl Place {
+    fn nearest(path: &Region, p: Point) -> Option<Place> {
+        let rings = path.rings.iter().enumerate();
+        let all = rings.flat_map(|(r, ring)| ring.segments().enumerate().map(move |(e, s)| (r, e, s, s.nearest(p))));
+        let (ring, element, s, near) = all.min_by(|a, b| a.3.distance.total_cmp(&b.3.distance))?;
+        let at = near.point;
+        let before = if at == s.start { 0.0 } else { Segment { end: at, ..s }.length() };
+        Some(Place { ring, element, at, before, distance: near.distance })
     }
-    ring.vertices.splice(element + 1..element + 1, new);
+}
+
+/// A way out of a path over some points, and back over them.
+#[derive(Clone, Debug)]
+struct Spike {
+    place: Place,
+    to: Vec<Point>,
+}
+
+/// All ways leave the path as it was, never each other: from its end to its start, so that the places before stay.
+fn insert_all(path: &mut Region, mut spikes: Vec<Spike>) {
+    let key = |s: &Spike| (s.place.ring, s.place.element);
+    spikes.sort_by(|a, b| key(b).cmp(&key(a)).then(b.place.before.total_cmp(&a.place.before)));
+    for spike in spikes {
+        spike.insert(&mut path.rings[spike.place.ring]);
+    }
+}
+
+impl Spike {
+    fn insert(&self, ring: &mut Ring) {
+        let (element, at) = (self.place.element, self.place.at);
+        let link = ring.vertices[element].link;
+        let corner = |point: Point, link: Link| Vertex { point, link, joint: Joint::Corner, id: None };
+        let back = self.to.iter().rev().skip(1);
+        let out_and_back = self.to.iter().chain(back).map(|&p| corner(p, Link::Line));
+        let mut new: Vec<Vertex> = out_and_back.chain([corner(at, link)]).collect();
+        if ring.vertices[element].point == at {
+            // The element begins after the way.
+            ring.vertices[element].link = Link::Line;
+        } else {
+            new.insert(0, corner(at, Link::Line));
+        }
+        ring.vertices.splice(element + 1..element + 1, new);
+    }
 }
 
 /// `part` without what a tool of `radius` takes from it along `ways`; or with it, where the part is what is cut away.

@@ -5,6 +5,7 @@
 //! differs from the drawing the paths touch the larger closing to the last digits: nothing is cut twice but a short overlap.
 
 use super::{Geometry, Keep, Level, OperationError, Planned, Work};
+use crate::cam::nearest_next::nearest_next;
 use crate::cam::solid::Solid;
 use crate::cam::walk::Walk;
 use crate::cam::{Move, MoveKind, Remainder, Side};
@@ -24,9 +25,6 @@ const HALVINGS: usize = 10;
 
 /// Rings behind each other: the tools of a job differ by no more.
 const MOST_RINGS: usize = 200;
-
-/// How high above the stock the tool goes from rapid to plunge, in millimetres.
-const APPROACH: f64 = 1.0;
 
 /// `larger` is the radius of the other tool, path radius included; rings lie `stepover` apart.
 pub(super) fn plan(
@@ -58,7 +56,7 @@ pub(super) fn plan(
     let mut count = 0;
     // From the middle to the wall.
     for paths in rings.into_iter().rev() {
-        for path in nearest_next(paths, moves.last().map_or(Point::origin(), |m| m.to)) {
+        for path in in_order(paths, moves.last().map_or(Point::origin(), |m| m.to)) {
             cut(work, &path, &heights, count, &mut moves);
             count += 1;
         }
@@ -70,7 +68,14 @@ pub(super) fn plan(
         Side::Outside | Side::On => (wall.closed, Remainder::Inside),
         Side::Inside => (wall.closed.reversed(), Remainder::Outside),
     };
-    let keep = Keep { part: geometry.area.clone(), kept, remainder, distance: radius, floor: work.floor };
+    let keep = Keep {
+        part: geometry.area.clone(),
+        kept,
+        remainder,
+        distance: radius,
+        floor: work.floor,
+        others: geometry.others.clone(),
+    };
     Ok(Planned {
         toolpath: work.toolpath(moves, count),
         keep: Some(keep),
@@ -129,18 +134,11 @@ fn stretches(work: &Work, level: &Level, left: &Solid, radius: f64) -> Vec<Vec<S
     found
 }
 
-/// Paths in the order in which always the nearest start comes next, the first of equals.
-fn nearest_next(mut paths: Vec<Vec<Segment>>, mut here: Point) -> Vec<Vec<Segment>> {
-    let mut order = Vec::with_capacity(paths.len());
+/// Paths in the order in which always the nearest start comes next.
+fn in_order(mut paths: Vec<Vec<Segment>>, here: Point) -> Vec<Vec<Segment>> {
     paths.retain(|p| !p.is_empty());
-    while !paths.is_empty() {
-        let distance = |k: usize| (paths[k][0].start - here).norm();
-        let nearest = (0..paths.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-        let path = paths.remove(nearest);
-        here = path[path.len() - 1].end;
-        order.push(path);
-    }
-    order
+    let ends: Vec<[Point; 2]> = paths.iter().map(|p| [p[0].start, p[p.len() - 1].end]).collect();
+    nearest_next(&ends, false, here).into_iter().map(|next| std::mem::take(&mut paths[next.path])).collect()
 }
 
 fn cut(work: &Work, path: &[Segment], heights: &[f64], contour: usize, moves: &mut Vec<Move>) {
@@ -149,8 +147,8 @@ fn cut(work: &Work, path: &[Segment], heights: &[f64], contour: usize, moves: &m
     let (start, end) = (path[0].start, path[path.len() - 1].end);
     for &height in heights {
         push(start, safe, MoveKind::Rapid);
-        if work.top + APPROACH < safe {
-            push(start, work.top + APPROACH, MoveKind::Rapid);
+        if work.approach() < safe {
+            push(start, work.approach(), MoveKind::Rapid);
         }
         push(start, height, MoveKind::Plunge);
         path.iter().for_each(|s| push(s.end, height, MoveKind::Cut(s.link)));

@@ -22,7 +22,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, max_depth: Option<f64>) -> 
     let carving = v_carve(&geometry.area, &spec).map_err(|e| OperationError::Carving(e.to_string()))?;
     work.stays_in_stock(carving.deepest)?;
     let mut moves = work.first_moves();
-    moves.extend(carving.moves(work.top, work.setup.rig.safe_height));
+    moves.extend(carving.moves(work.approach(), work.setup.rig.safe_height));
     let mut count = carving.chains.len();
     let mut notices = Vec::new();
     if !carving.flat.is_empty() {
@@ -52,6 +52,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, max_depth: Option<f64>) -> 
             remainder: Remainder::Outside,
             distance: 0.0,
             floor: work.top - carving.deepest,
+            others: geometry.others.clone(),
         }),
         notices,
         tabs: Vec::new(),

@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::file::{InvalidSetup, KeepoutFile, SetupFile, SetupProblem, refuse_flags};
 use super::locate::Locator;
 use super::{Operation, Rig, SETUP_VERSION, Setup, Workpiece};
-use crate::cam::{DEFAULT_DWELL, DEFAULT_SAFE_CLEARANCE, JobFile, Keepout, Machine, Tool};
+use crate::cam::{DEFAULT_DWELL, DEFAULT_ORIGIN, DEFAULT_SAFE_CLEARANCE, JobFile, Keepout, Machine, Tool};
 use crate::plane::{Bounds, Point};
 use crate::units::{DrawingScale, Length, nearest};
 
@@ -201,6 +201,7 @@ impl Resolver<'_> {
             }
         };
         Workpiece {
+            zero: file.stock.zero.unwrap_or(DEFAULT_ORIGIN),
             size: width.zip(height).map(|(w, h)| [w, h]),
             thickness,
             top,

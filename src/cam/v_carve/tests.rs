@@ -94,13 +94,13 @@ fn a_round_hole_is_plunged_to() {
 #[test]
 fn moves_go_down_straight_above_a_chain_and_travel_at_the_safe_height() {
     let carving = v_carve(&rectangle(40.0, 6.0), &spec(bit(FRAC_PI_2, 0.0, 12.0))).unwrap();
-    let moves = carving.moves(0.0, 5.0);
+    let moves = carving.moves(1.0, 5.0);
     assert!(moves.len() > 8);
     for w in moves.windows(2) {
         let level = (w[0].to - w[1].to).norm() == 0.0;
         match w[1].kind {
             MoveKind::Rapid => assert!(level || (w[0].z == 5.0 && w[1].z == 5.0), "{w:?}"),
-            MoveKind::Plunge => assert!(level && w[0].z == APPROACH && w[1].z <= 0.0, "{w:?}"),
+            MoveKind::Plunge => assert!(level && w[0].z == 1.0 && w[1].z <= 0.0, "{w:?}"),
             MoveKind::Cut(link) => assert!(link == Link::Line && w[1].z <= 0.0 && w[1].contour == w[0].contour),
             MoveKind::Ramp(_) => panic!("{w:?}"),
         }

@@ -177,6 +177,19 @@ impl Cut {
                     "no room for its arc",
                     "a smaller lead",
                 ),
+                Notice::LeadShortened(p, radius) => {
+                    (p, "lead", format!("a radius of {radius:.3} mm"), "no room for a larger arc", "a smaller lead")
+                }
+                Notice::NotRound(p) => {
+                    (p, "shape", "not drilled".to_owned(), "it is no circle", "a pocket, or another select")
+                }
+                Notice::HoleNarrow(p, diameter) => (
+                    p,
+                    "hole",
+                    format!("as wide as the drill, not {diameter:.3} mm"),
+                    "a drill makes holes of its own size",
+                    "a drill of its size, or an end mill",
+                ),
                 Notice::HelixSkipped(p) => (
                     p,
                     "helix",

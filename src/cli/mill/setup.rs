@@ -15,7 +15,7 @@ use crate::check::{LostFeature, lost_features};
 use crate::cli::{ExitStatus, input, output};
 use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
 use crate::io::svg::Shapes;
-use crate::plane::{Point, Vector};
+use crate::plane::{Point, Region, Vector};
 use crate::preview::{self, DEFAULT_SIZE, Scene};
 use crate::reference::Operation as ReferenceOperation;
 use crate::units::Radius;
@@ -64,14 +64,15 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     read_machine_settings(&mut file, job)?;
     let setup = file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string())?;
     let dialect = input::dialect_beside(&setup.rig.dialect, job)?;
-    let shift = shift(file.stock.zero.unwrap_or(cam::DEFAULT_ORIGIN), &shapes, mm_per_unit);
+    let shift = shift(setup.stock.zero, &shapes, mm_per_unit);
     let options = WriteOptions {
         units: if setup.rig.inches { Units::Inches } else { Units::Millimetres },
         arcs: if setup.rig.arcs { Arcs::Arcs } else { Arcs::Lines },
     };
 
     let place = |o: &Operation| format!("{}: line {}: operation \"{}\"", job.display(), o.line, o.label);
-    let drawn = |o: &Operation, holes: &[Hole]| geometry(o, &shapes, mm_per_unit, shift, holes);
+    let parts = parts(&setup, &shapes, mm_per_unit, shift);
+    let drawn = |o: &Operation, holes: &[Hole]| geometry(o, &shapes, mm_per_unit, shift, holes, &parts);
     let mut planned: Vec<Planned> = Vec::new();
     let mut holes: Vec<Hole> = Vec::new();
     for operation in &setup.operations {
@@ -163,7 +164,14 @@ fn shift(zero: Origin, shapes: &Shapes, mm_per_unit: f64) -> Vector {
 }
 
 /// The shapes of an operation in the machine's coordinates.
-fn geometry(operation: &Operation, shapes: &Shapes, scale: f64, shift: Vector, holes: &[Hole]) -> Result<Geometry> {
+fn geometry(
+    operation: &Operation,
+    shapes: &Shapes,
+    scale: f64,
+    shift: Vector,
+    holes: &[Hole],
+    parts: &[Region],
+) -> Result<Geometry> {
     let chosen = select(shapes, &operation.select)?;
     let area = shapes.united(&chosen).scaled(scale).translated(shift);
     let lines = match operation.kind {
@@ -174,7 +182,17 @@ fn geometry(operation: &Operation, shapes: &Shapes, scale: f64, shift: Vector, h
             .collect(),
         _ => Vec::new(),
     };
-    Ok(Geometry { area, lines, holes: holes.to_vec() })
+    // What has something in common with the shapes is the same part, or worked on inside.
+    let others = parts.iter().filter(|part| !area.overlaps(part)).flat_map(|part| part.rings.iter().cloned());
+    let others = Region::new(others.collect());
+    Ok(Geometry { area, lines, holes: holes.to_vec(), others })
+}
+
+/// The parts that operations cut out of the stock; none of operations whose selection fails, which is told elsewhere.
+fn parts(setup: &Setup, shapes: &Shapes, scale: f64, shift: Vector) -> Vec<Region> {
+    let cut_out = |o: &&Operation| matches!(o.kind, OperationKind::Profile { side: Side::Outside, .. });
+    let chosen = setup.operations.iter().filter(cut_out).filter_map(|o| select(shapes, &o.select).ok());
+    chosen.flat_map(|chosen| shapes.united(&chosen).scaled(scale).translated(shift).components()).collect()
 }
 
 /// What is done one after the other.
@@ -281,7 +299,7 @@ fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]
     Ok(all
         .map(|((operation, planned), (program, run))| {
             let tool = setup.tool_of(operation);
-            let check = check_operation(&run, operation, &planned, tool, setup.stock.top, &setup.rig.limits);
+            let check = check_operation(&run, operation, &planned, tool, &setup.stock, &setup.rig.limits);
             let acceleration = setup.rig.limits.acceleration;
             let path_radius = operation.cutting.path_radius_mm(acceleration[0].min(acceleration[1]));
             let lost = lost(operation, &planned, tool.radius() + path_radius);

@@ -206,6 +206,17 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
     for notice in &planned.notices {
         match *notice {
             Notice::LeadSkipped(p) => notes.push(format!("no room for a lead at {}", at(p))),
+            Notice::LeadShortened(p, radius) => {
+                notes.push(format!("the lead at {} has room for a radius of {radius:.3} mm only", at(p)))
+            }
+            Notice::NotRound(p) => failures.push(format!(
+                "the shape around {} is no circle and is not drilled: leave it out of select, or cut it with a pocket",
+                at(p)
+            )),
+            Notice::HoleNarrow(p, diameter) => failures.push(format!(
+                "the hole of {diameter:.3} mm at {} comes out as wide as the drill: take a drill of its size, or bore it with an end mill",
+                at(p)
+            )),
             Notice::HelixSkipped(p) => {
                 notes.push(format!("no room for a helix at {}: the tool ramps along the path", at(p)))
             }

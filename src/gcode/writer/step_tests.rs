@@ -52,7 +52,7 @@ fn a_program_of_one_tool_takes_it_to_be_there() {
 fn a_change_of_tool_lifts_stops_changes_and_starts_again() {
     let text = written(&[step("a", 1, 9000.0), step("b", 1, 9000.0), step("c", 2, 5000.0)], named("mach3"));
     let head = "(tool 1 \"\" flat diameter 3 mm)\n(tool 2 \"\" flat diameter 3 mm)\nG21\nG17 G90 G94\n\
-        G40 G49 G80 G91.1\n";
+        G40 G80 G91.1\n";
     let first = "(operation a)\nT1 M6\nG43 H1\nG0 Z5\nM3 S9000\nG4 P2.5\n";
     // The same tool at the same speed just goes on; the feed is still that of the cut before.
     let second = "(operation b)\nG0 X0\nG1 Z-1 F200\nG1 X10 Z-2 F600\nG0 Z5\nM5\n";

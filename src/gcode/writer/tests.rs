@@ -210,7 +210,7 @@ fn a_program_reads_like_this() {
     assert_eq!(text, expected);
     let cnc =
         write(&toolpath, &[], &LINUXCNC, WriteOptions { units: Units::Inches, ..WriteOptions::default() }).unwrap();
-    assert!(cnc.starts_with("G20\nG17 G90 G94\nG40 G49 G80 G91.1\nG64 P0.00004\nG0 Z0.19685\n"), "{cnc}");
+    assert!(cnc.starts_with("G20\nG17 G90 G94\nG40 G80 G91.1\nG64 P0.00004\nG0 Z0.19685\n"), "{cnc}");
     assert!(cnc.contains(" F39.37\n") && cnc.ends_with("M5\nM2\n"), "{cnc}");
 }
 
