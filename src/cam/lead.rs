@@ -21,6 +21,8 @@ pub(super) struct Room<'a> {
     pub distance: f64,
     /// Parts of other operations, from which it keeps as far.
     pub others: Option<&'a Solid>,
+    /// The middles of tabs, which it must not take away.
+    pub tabs: &'a [Point],
 }
 
 impl Room<'_> {
@@ -28,7 +30,9 @@ impl Room<'_> {
     pub(super) fn has(&self, element: &Segment) -> bool {
         let allowed = LEAD_TOLERANCE - self.distance;
         let is_free = |solid: &Solid| solid.deepest(element, allowed, 0.1 * LEAD_TOLERANCE).0 <= allowed;
-        is_free(self.solid) && self.others.is_none_or(is_free)
+        is_free(self.solid)
+            && self.others.is_none_or(is_free)
+            && !self.tabs.iter().any(|&tab| element.is_nearer(tab, self.distance))
     }
 }
 
@@ -105,7 +109,7 @@ mod tests {
             [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(|(x, y)| Point::new(x, y)),
         )]);
         let solid = Solid::new(&part, Remainder::Inside);
-        let room = Room { solid: &solid, distance: 2.0, others: None };
+        let room = Room { solid: &solid, distance: 2.0, others: None, tabs: &[] };
         // Below the part, going right: the part on the left, the waste on the right.
         let at = Point::new(10.0, -2.0);
         let parts = |l: &Lead| vec![l.arriving(), l.leaving(), l.returning()];
@@ -126,7 +130,7 @@ mod tests {
             Ring::polygon([(0.0, y), (40.0, y), (40.0, y + 5.0), (0.0, y + 5.0)].map(|(x, y)| Point::new(x, y)))
         };
         let solid = Solid::new(&Region::new(vec![wall(0.0), wall(11.0)]), Remainder::Inside);
-        let room = Room { solid: &solid, distance: 2.0, others: None };
+        let room = Room { solid: &solid, distance: 2.0, others: None, tabs: &[] };
         let at = Point::new(20.0, 7.0);
         let lead = Lead::find(at, Vector::new(-1.0, 0.0), Turn::Right, 6.0, &room, |l| vec![l.arriving()]).unwrap();
         assert_eq!(lead.radius, 1.5);

@@ -61,7 +61,12 @@ pub fn plan(job: &Job, part: &Region, closed: &Region) -> Result<Toolpath, PlanE
         depth_per_pass: job.depth_per_pass,
         lead: None,
         waste: if backwards { Turn::Left } else { Turn::Right },
-        room: (job.side != Side::On).then_some(Room { solid: &solid, distance: job.offset_distance(), others: None }),
+        room: (job.side != Side::On).then_some(Room {
+            solid: &solid,
+            distance: job.offset_distance(),
+            others: None,
+            tabs: &[],
+        }),
         holes: &[],
     };
     let mut notices = Vec::new();

@@ -21,8 +21,9 @@ const SEARCH_STEPS: usize = 720;
 /// path that a tab could hold on to.
 const HOLD: f64 = 0.99;
 
-/// Half of the narrowest that the way around a corner may leave of a tab, in widths of the tab.
-const NECK: f64 = 0.25;
+/// Half of the narrowest that the way around a corner may leave of a tab, in widths of the tab: where it is wanted, and where
+/// there are only tight arcs.
+const NECK: [f64; 2] = [0.25, 0.1];
 
 /// What is around the tabs of an operation.
 pub(super) struct Ground<'a> {
@@ -32,6 +33,8 @@ pub(super) struct Ground<'a> {
     pub tool_diameter: f64,
     /// How far from the start of a path, in millimetres, its tabs begin.
     pub seam: f64,
+    /// How far beside the path another one runs that passes over the same tabs.
+    pub allowance: f64,
     /// All paths.
     pub strands: &'a Strands,
 }
@@ -162,7 +165,12 @@ impl TabLine {
                     && placed.line.middles.iter().all(|&m| clear(m, reach))
                     && (arcs || !tight.iter().any(|&(a, b)| overlaps(at, half, a, b, length)))
                     && !ground.strands.pass(walk.point_at(at), path, at, HOLD * ground.tool_diameter)
-                    && stays(walk, at, half, 0.5 * ground.tool_diameter + if arcs { 0.0 } else { NECK * tabs.width })
+                    && stays(
+                        walk,
+                        at,
+                        half,
+                        0.5 * ground.tool_diameter + ground.allowance + NECK[usize::from(arcs)] * tabs.width,
+                    )
             };
             // As near as can be to where it is wanted.
             let nearest_free = |arcs: bool| {
@@ -252,7 +260,7 @@ mod tests {
     fn place(tabs: &Tabs, walk: &Walk, tool_diameter: f64, seam: f64) -> Placed {
         let mut strands = Strands::default();
         strands.add(0, walk.segments());
-        TabLine::place(tabs, walk, 0, &Ground { base: -6.0, tool_diameter, seam, strands: &strands })
+        TabLine::place(tabs, walk, 0, &Ground { base: -6.0, tool_diameter, allowance: 0.0, seam, strands: &strands })
     }
 
     #[test]

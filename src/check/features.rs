@@ -13,9 +13,16 @@ use crate::units::Radius;
 /// less.
 pub const SHALLOWEST_FILLING: f64 = 0.5;
 
-/// An inlet at least this deep over the width of its mouth is a slot that vanished. The fillet of a corner of 53 degrees or more is
-/// shallower.
+/// An inlet at least this deep over the width of its mouth is a slot that vanished, unless it is a [corner](CORNER_FULLNESS).
 pub const SLOT_DEPTH: f64 = 1.0;
+
+/// An inlet that fills no more than this fraction of the rectangle of its mouth and depth is a corner: two straight walls fill
+/// half of it.
+pub const CORNER_FULLNESS: f64 = 0.6;
+
+/// A corner at least this deep over the width of its mouth is a slot that vanished all the same: the fillet of a corner of
+/// 28 degrees or more is shallower.
+pub const CORNER_DEPTH: f64 = 2.0;
 
 /// An inlet that fills at least this fraction of the rectangle of its mouth and depth is a slot that vanished, however
 /// wide: a corner of two straight walls fills half of it.
@@ -91,8 +98,8 @@ impl LostFeature {
 /// What `result`, a closing or opening of `part` by a disk of `radius`, has lost; in the order of the pieces from below.
 ///
 /// A fillet in a corner is no loss. A filled
-/// inlet is one if the filling is deeper than [`SHALLOWEST_FILLING`] and the inlet either [deeper than wide](SLOT_DEPTH) or
-/// [box-like](SLOT_FULLNESS). Accurate to about a thousandth of the radius, to which arcs are flattened.
+/// inlet is one if the filling is deeper than [`SHALLOWEST_FILLING`] and the inlet either [deeper than wide](SLOT_DEPTH),
+/// [sharp](CORNER_DEPTH) or [box-like](SLOT_FULLNESS). Accurate to about a thousandth of the radius, to which arcs are flattened.
 pub fn lost_features(part: &Region, result: &Region, radius: Radius, operation: Operation) -> Vec<LostFeature> {
     let r = radius.get();
     let is_closing = operation == Operation::Close;
@@ -157,7 +164,9 @@ fn is_slot(contact: &Contact) -> bool {
     let height = |p: &Point| if mouth > 0.0 { (chord.perp(&(p - a)) / mouth).abs() } else { (p - a).norm() };
     let depth = contact.points.iter().map(height).fold(0.0, f64::max);
     let doubled: f64 = contact.points.windows(2).map(|w| (w[0] - a).perp(&(w[1] - a))).sum();
-    depth >= SLOT_DEPTH * mouth || 0.5 * doubled.abs() >= SLOT_FULLNESS * mouth * depth
+    let (area, rectangle) = (0.5 * doubled.abs(), mouth * depth);
+    let deepest = if area <= CORNER_FULLNESS * rectangle { CORNER_DEPTH } else { SLOT_DEPTH };
+    depth >= deepest * mouth || area >= SLOT_FULLNESS * rectangle
 }
 
 /// Which rings of a region belong together.

@@ -51,7 +51,7 @@ pub(super) fn plan(
     let mut cuts = Cuts {
         work,
         geometry,
-        room: Room { solid: &solid, distance: rough_distance, others: None },
+        room: Room { solid: &solid, distance: rough_distance, others: None, tabs: &[] },
         join: LONGEST_JOIN * stepover,
         moves: work.first_moves(),
         notices: Vec::new(),
@@ -159,7 +159,7 @@ impl Cuts<'_> {
         let (roughed, full): (Vec<_>, Vec<_>) = self.work.contours(&level.path).into_iter().partition(is_beside);
         let at_once = steps(self.work.top, self.work.floor, self.work.tool.flute_length);
         for (contours, heights) in [(&roughed, at_once.as_slice()), (&full, heights)] {
-            let room = Room { solid: &solid, distance, others: None };
+            let room = Room { solid: &solid, distance, others: None, tabs: &[] };
             let laying = self.work.laying(self.work.top, heights, Some(room), &self.geometry.holes);
             for stop in order(contours, Point::origin()) {
                 let contour = &contours[stop.contour];
@@ -211,7 +211,7 @@ impl Cuts<'_> {
                     // Never empty.
                     let Some(entry) = contour.entries.first().copied() else { continue };
                     let heights = [height];
-                    let room = Room { solid: self.room.solid, distance: self.room.distance, others: None };
+                    let room = Room { solid: self.room.solid, distance: self.room.distance, others: None, tabs: &[] };
                     let mut laying = self.work.laying(above, &heights, Some(room), &self.geometry.holes);
                     laying.lead = None;
                     let mut pen = Pen { moves: &mut self.moves, notices: &mut self.notices, contour: self.count };

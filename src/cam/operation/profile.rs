@@ -202,7 +202,13 @@ impl<'a> Cuts<'a> {
             Entry::Helix => self.work.cutting.lead.unwrap_or(HELIX_RADIUS * tool.radius()),
             _ => self.work.cutting.lead.unwrap_or(0.0),
         };
-        Ground { base: self.work.base, tool_diameter: tool.diameter, seam: tool.radius() + beside, strands }
+        Ground {
+            base: self.work.base,
+            tool_diameter: tool.diameter,
+            seam: tool.radius() + beside,
+            allowance: self.work.cutting.allowance,
+            strands,
+        }
     }
 
     /// Every way down to the last height.
@@ -216,7 +222,8 @@ impl<'a> Cuts<'a> {
     }
 
     fn cut_with(&mut self, routes: &[Route], top: f64, heights: &[f64], lead: Option<f64>) {
-        let room = Room { solid: &self.solid, distance: self.distance, others: Some(&self.others) };
+        let middles: Vec<Point> = self.tabs.iter().map(|tab| tab.at).collect();
+        let room = Room { solid: &self.solid, distance: self.distance, others: Some(&self.others), tabs: &middles };
         let mut laying = self.work.laying(top, heights, self.has_room.then_some(room), &self.geometry.holes);
         laying.lead = lead;
         for route in routes {
