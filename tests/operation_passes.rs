@@ -100,7 +100,8 @@ fn the_tool_goes_down_the_flanks_of_tabs_at_the_feed_of_ramps() {
 #[test]
 fn tabs_stand_after_roughing_and_finishing() {
     // Roughed and finished paths pass over the same tabs: nothing below their tops comes near their middles.
-    let text = "kind = \"profile\"\nthrough = true\nallowance = 0.3\nlead = 4\ntabs = { count = 4, width = 6, height = 2 }\n";
+    let text =
+        "kind = \"profile\"\nthrough = true\nallowance = 0.3\nlead = 4\ntabs = { count = 4, width = 6, height = 2 }\n";
     let setup = setup(text);
     let region = clopen::io::svg::read(
         format!(

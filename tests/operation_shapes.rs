@@ -39,8 +39,7 @@ fn a_part_of_another_operation_is_kept_clear_of_by_leads_and_held_against_the_pr
         let geometry = Geometry { area: own.clone(), others: others.clone(), ..Geometry::default() };
         let (planned, program) = run(&setup, &geometry);
         let tool = setup.tool_of(&setup.operations[0]);
-        let check =
-            check_operation(&program, &setup.operations[0], &planned, tool, &setup.stock, &Machine::default());
+        let check = check_operation(&program, &setup.operations[0], &planned, tool, &setup.stock, &Machine::default());
         check.gouge.map_or(f64::NEG_INFINITY, |g| g.depth_mm)
     };
     assert!(gouge(&beside) <= 0.002, "{}", gouge(&beside));
