@@ -63,10 +63,10 @@ fn dogbones_are_cut_in_every_pass_also_with_an_allowance() {
 
 #[test]
 fn walls_that_the_roughing_has_no_room_for_are_cut_in_every_pass() {
-    // A hole of 3.4 mm: the tool fits in, with the allowance it does not.
-    let hole = "M31.7 30A1.7 1.7 0 1 1 28.3 30A1.7 1.7 0 1 1 31.7 30Z";
+    // A hole of 3.9 mm: the tool fits in, with the allowance it does not.
+    let hole = "M31.95 30A1.95 1.95 0 1 1 28.05 30A1.95 1.95 0 1 1 31.95 30Z";
     for kind in ["profile\"\nside = \"inside", "pocket"] {
-        let operation = format!("kind = \"{kind}\"\nthrough = true\nallowance = 0.4\npath-radius = 0\n");
+        let operation = format!("kind = \"{kind}\"\nthrough = true\nallowance = 0.6\npath-radius = 0\n");
         assert!(deepest(&operation, hole, 0.0) <= PASS, "{kind}");
         // In a wide one the walls are finished at once.
         let heights = program(&operation, SQUARE);

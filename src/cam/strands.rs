@@ -82,7 +82,7 @@ mod tests {
         assert!(!strands.pass(Point::new(5.0, 0.0), 0, 5.0, 9.9));
         assert!(strands.pass(Point::new(5.0, 0.0), 0, 5.0, 10.1));
         strands.add(1, &square(12.0, 10.0));
-        assert!(!strands.pass(Point::new(10.0, 5.0), 0, 15.0, 4.0));
+        assert!(!strands.pass(Point::new(10.0, 5.0), 0, 15.0, 1.9));
         assert!(strands.pass(Point::new(10.0, 9.0), 0, 19.0, 4.0));
         // Out and back: every place is passed twice.
         let (a, b, c) = (Point::new(50.0, 0.0), Point::new(60.0, 0.0), Point::new(50.0, 30.0));

@@ -4,7 +4,7 @@
 (tool 2 "" drill cone angle 118 deg tip 0 mm diameter 2.5 mm)
 G21
 G17 G90 G94
-G40 G49 G80 G91.1
+G40 G80 G91.1
 G64 P0.001
 (operation pocket)
 T1 M6
