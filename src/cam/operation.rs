@@ -120,7 +120,7 @@ pub enum OperationError {
     NoCircles,
     /// A circle that the tool does not fit into.
     #[error(
-        "the hole of {hole} mm at ({:.3}, {:.3}) is smaller than the tool, {diameter} mm: take a smaller tool", at.x, at.y
+        "the hole of {hole:.3} mm at ({:.3}, {:.3}) is smaller than the tool, {diameter} mm: take a smaller tool", at.x, at.y
     )]
     HoleTooSmall {
         /// Its centre.
@@ -191,7 +191,7 @@ const REST_STEPOVER: f64 = 0.4;
 /// The radius by which an earlier tool has closed what stays: its own, and that of its path.
 fn larger_radius(setup: &Setup, operation: &Operation, diameter: f64) -> f64 {
     let acceleration = setup.rig.limits.acceleration[0].min(setup.rig.limits.acceleration[1]);
-    let earlier = setup.operations.iter().take_while(|o| o.line < operation.line);
+    let earlier = setup.operations.iter().filter(|o| o.line < operation.line);
     let used = earlier.filter(|o| setup.tool_of(o).diameter == diameter);
     let own = operation.cutting.path_radius_mm(acceleration);
     let path_radius = used.map(|o| o.cutting.path_radius_mm(acceleration)).reduce(f64::max).unwrap_or(own);

@@ -11,7 +11,10 @@ const FLANK: f64 = 1.5;
 /// Straight pieces of a flank: the polygon keeps within 1 % of the tab's height of the smooth curve.
 const FLANK_PIECES: usize = 8;
 
-/// Arcs of the path tighter than this, in tool diameters, are no places for tabs: a knife cuts straight.
+/// Arcs of the path tighter than this, in tool diameters, are no good places for tabs: a knife cuts straight.
+const ROUND: f64 = 4.0;
+
+/// Tabs on arcs tighter than this, in tool diameters, are told.
 const TIGHT: f64 = 1.0;
 
 /// How finely places for tabs are sought along a path, in parts of its length.
@@ -154,34 +157,35 @@ impl TabLine {
         };
         let mut placed = Placed { asked: wanted.len(), line: TabLine::empty(tabs, walk, ground), on_arcs: 0 };
         let half = placed.line.plateau;
+        let round = tight_stretches(walk.segments(), ROUND * ground.tool_diameter);
         let tight = tight_stretches(walk.segments(), TIGHT * ground.tool_diameter);
         for way in wanted {
-            let free = |at: f64, arcs: bool| {
+            let free = |at: f64, arcs: Option<&[(f64, f64)]>| {
                 let clear = |middle: f64, other: f64| {
                     let apart = (at - middle).rem_euclid(length);
                     apart.min(length - apart) >= reach + other
                 };
                 clear(0.0, ground.seam)
                     && placed.line.middles.iter().all(|&m| clear(m, reach))
-                    && (arcs || !tight.iter().any(|&(a, b)| overlaps(at, half, a, b, length)))
+                    && !arcs.unwrap_or_default().iter().any(|&(a, b)| overlaps(at, half, a, b, length))
                     && !ground.strands.pass(walk.point_at(at), path, at, HOLD * ground.tool_diameter)
                     && stays(
                         walk,
                         at,
                         half,
-                        0.5 * ground.tool_diameter + ground.allowance + NECK[usize::from(arcs)] * tabs.width,
+                        0.5 * ground.tool_diameter + ground.allowance + NECK[usize::from(arcs.is_none())] * tabs.width,
                     )
             };
             // As near as can be to where it is wanted.
-            let nearest_free = |arcs: bool| {
+            let nearest_free = |arcs: Option<&[(f64, f64)]>| {
                 (0..=SEARCH_STEPS / 2)
                     .flat_map(|k| [k as f64, -(k as f64)])
                     .map(|k| (way + k * length / SEARCH_STEPS as f64).rem_euclid(length))
                     .find(|&at| free(at, arcs))
             };
-            if let Some(at) = nearest_free(false) {
+            if let Some(at) = nearest_free(Some(&round)).or_else(|| nearest_free(Some(&tight))) {
                 placed.line.middles.push(at);
-            } else if let Some(at) = nearest_free(true) {
+            } else if let Some(at) = nearest_free(None) {
                 placed.line.middles.push(at);
                 placed.on_arcs += 1;
             }

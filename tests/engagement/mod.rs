@@ -5,12 +5,15 @@ use std::collections::HashMap;
 use clopen::cam::Program;
 use clopen::plane::{Point, Segment};
 
+/// A place that was cut: where, how deep, and after which way.
+type Cut = (Point, f64, f64);
+
 /// The deepest step of a program, and its line: how far a feed goes below what earlier motions have cut within `reach` of
 /// it, or below `top`. What was cut on the same way just before does not count, so that a ramp's own fall is let through by
 /// [`OWN_FALL`].
 pub fn deepest_step(program: &Program, top: f64, reach: f64) -> (f64, usize) {
     let key = |p: Point| ((p.x / reach).floor() as i64, (p.y / reach).floor() as i64);
-    let mut cut: HashMap<(i64, i64), Vec<(Point, f64, f64)>> = HashMap::new();
+    let mut cut: HashMap<(i64, i64), Vec<Cut>> = HashMap::new();
     let mut way = 0.0;
     let mut deepest = (f64::NEG_INFINITY, 0);
     for motion in program.motions.iter().filter(|m| m.is_feed() && m.from.z.min(m.to.z) < top) {

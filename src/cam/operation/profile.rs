@@ -11,7 +11,7 @@ use crate::cam::solid::Solid;
 use crate::cam::strands::Strands;
 use crate::cam::tabs::{Ground, TabLine};
 use crate::cam::walk::Walk;
-use crate::cam::{Contour, Entry, Remainder, Side, Tabs};
+use crate::cam::{Contour, Entry, Remainder, Side, TabPlaces, Tabs};
 use crate::plane::{Point, Region, Segment};
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corners) -> Result<Planned, OperationError> {
@@ -150,9 +150,11 @@ impl<'a> Cuts<'a> {
         let mut strands = Strands::default();
         routes.iter().enumerate().for_each(|(k, route)| strands.add(k, &route.path));
         let ground = self.ground(&strands);
+        let (each, astray) = shared_out(asked, &routes, ASTRAY * self.work.tool.diameter);
+        self.notices.extend(astray.into_iter().map(|p| Notice::TabsDropped(p, 1)));
         for (k, route) in routes.iter_mut().enumerate().filter(|(_, route)| !route.path.is_empty()) {
             let walk = Walk::new(route.path.clone());
-            let placed = TabLine::place(asked, &walk, k, &ground);
+            let placed = TabLine::place(&each[k], &walk, k, &ground);
             let missing = placed.asked - placed.line.count();
             if missing > 0 {
                 self.notices.push(Notice::TabsDropped(route.start, missing));
@@ -232,6 +234,27 @@ impl<'a> Cuts<'a> {
             self.count += 1;
         }
     }
+}
+
+/// How far from a path, in tool diameters, a place for a tab may be: the outline itself is half of one away.
+const ASTRAY: f64 = 2.0;
+
+/// What every path is asked for: of places that are named those that it is the nearest to; and the places that are farther than
+/// `reach` from all.
+fn shared_out(asked: &Tabs, routes: &[Route], reach: f64) -> (Vec<Tabs>, Vec<Point>) {
+    let TabPlaces::At(points) = &asked.places else { return (vec![asked.clone(); routes.len()], Vec::new()) };
+    let mut own: Vec<Vec<[f64; 2]>> = vec![Vec::new(); routes.len()];
+    let mut astray = Vec::new();
+    for &[x, y] in points {
+        let p = Point::new(x, y);
+        let distance = |route: &Route| route.path.iter().map(|s| s.nearest(p).distance).fold(f64::INFINITY, f64::min);
+        let all = routes.iter().map(distance).enumerate();
+        match all.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, distance)| *distance <= reach) {
+            Some((k, _)) => own[k].push([x, y]),
+            None => astray.push(p),
+        }
+    }
+    (own.into_iter().map(|at| Tabs { places: TabPlaces::At(at), ..asked.clone() }).collect(), astray)
 }
 
 /// The way around one contour.
