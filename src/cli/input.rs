@@ -86,27 +86,30 @@ pub(super) fn millimetres(length: Length, option: &str) -> Result<f64> {
 /// # Errors
 /// Lists the names, or names the file and the key that is wrong.
 pub(super) fn dialect(asked: &str) -> Result<Dialect> {
-    let path = Path::new(asked);
-    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("toml")) {
-        return Ok(Dialect::named(asked)?.clone());
-    }
+    let Some(path) = dialect_file(asked) else { return Ok(Dialect::named(asked)?.clone()) };
     // A name in a program is one word of ASCII.
     let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let name: String = stem.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect();
-    Dialect::parse(&read_text(path)?, &name).with_context(|| format!("{}: this is no dialect", path.display()))
+    Dialect::parse(&read_text(&path)?, &name).with_context(|| format!("{}: this is no dialect", path.display()))
 }
 
-/// The dialect that a job file asks for: files are looked for beside it.
+/// The file of the dialect that was asked for; `None` for one that is built in.
+pub(super) fn dialect_file(asked: &str) -> Option<PathBuf> {
+    let path = Path::new(asked);
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")).then(|| path.to_path_buf())
+}
+
+/// The dialect that a job file asks for, and its file where it has one: files are looked for beside the job.
 ///
 /// # Errors
 /// As [`dialect`].
-pub(super) fn dialect_beside(asked: &str, job: &Path) -> Result<Dialect> {
+pub(super) fn dialect_beside(asked: &str, job: &Path) -> Result<(Dialect, Option<PathBuf>)> {
     let beside = job.parent().map(|folder| folder.join(asked));
     match beside {
         Some(path) if asked.to_ascii_lowercase().ends_with(".toml") && path.is_file() => {
-            dialect(&path.to_string_lossy())
+            Ok((dialect(&path.to_string_lossy())?, Some(path)))
         }
-        _ => dialect(asked),
+        _ => Ok((dialect(asked)?, dialect_file(asked))),
     }
 }
 

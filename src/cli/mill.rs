@@ -8,6 +8,8 @@ mod select;
 mod setup;
 mod setup_page;
 mod setup_report;
+mod setup_saved;
+mod stock_edges;
 
 use std::path::{Path, PathBuf};
 
@@ -91,7 +93,7 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
              the part is (--width 100mm)"
         );
     };
-    let settings = read_settings(args, &drawing)?;
+    let settings = read_settings(args, &drawing, &target)?;
     let job = &settings.job;
     let part = drawing.region.scaled(mm_per_unit);
     let plan = make_plan(&settings, &part).with_context(|| name.to_string())?;
@@ -145,13 +147,21 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     })
 }
 
-fn read_settings(args: &MillArgs, drawing: &Drawing) -> Result<Settings> {
+fn read_settings(args: &MillArgs, drawing: &Drawing, target: &Path) -> Result<Settings> {
     let mut typed = args.typed();
     if let Some(path) = &args.job {
         let file: JobFile = input::read_text(path)?.parse().with_context(|| path.display().to_string())?;
         typed = typed.over(file);
     }
-    let dialect = input::dialect(typed.dialect.as_deref().unwrap_or("grbl"))?;
+    let asked = typed.dialect.as_deref().unwrap_or("grbl");
+    let dialect = input::dialect(asked)?;
+    if let Some(file) = input::dialect_file(asked) {
+        for result in
+            [Some(target.to_path_buf()), Some(target.with_extension("png")), args.html.clone()].iter().flatten()
+        {
+            output::keep_input(&file, result)?;
+        }
+    }
     Ok(Settings {
         job: typed.resolve(&drawing.scale())?,
         topology: typed.topology.unwrap_or(Topology::Merge),
