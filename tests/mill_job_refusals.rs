@@ -12,7 +12,7 @@ const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="60mm" h
 <path id="l" d="M15 15L45 15" fill="none" stroke="#0f0"/>
 </svg>"##;
 
-/// Everything before the operations: 31 lines.
+/// Everything before the operations, which begin on line 32.
 const HEAD: &str = "version = 1
 [stock]
 thickness = 6
@@ -113,7 +113,7 @@ fn a_drawing_in_the_wrong_unit_is_refused_with_the_length_of_its_path() {
         fs::write(folder.path().join("a.svg"), svg).unwrap();
         let output = clopen(folder.path(), &["mill", "a.svg", "--job", "job.toml", "-o", "x.nc", "--no-preview"]);
         assert_eq!(output.status.code(), Some(2), "{extent}: {}", said(&output));
-        assert!(said(&output).contains("line 31: operation \"pocket 1\""), "{extent}: {}", said(&output));
+        assert!(said(&output).contains("line 32: operation \"pocket 1\""), "{extent}: {}", said(&output));
         assert!(said(&output).contains(words), "{extent}: {}", said(&output));
     }
 }
@@ -129,7 +129,7 @@ fn a_key_that_means_nothing_for_its_kind_is_refused_with_the_kinds_that_take_it(
         cases.push((
             operation,
             format!("{name} ="),
-            format!("{name} means nothing in a {kind} operation: leave it out, it belongs to {takers}"),
+            format!("{name} means nothing in an operation of kind {kind}: leave it out, it belongs to {takers}"),
         ));
     };
     for (kind, tool, rest) in [
@@ -218,7 +218,7 @@ fn a_spindle_speed_beyond_the_machine_is_refused_where_it_is_said() {
     let (text, code) = mill(&format!("{slow}{profile}spindle-speed = 12000\n"));
     assert_eq!(code, Some(0), "{text}");
     let (text, _) = mill(&format!("{slow}{profile}spindle-speed = 12001\n"));
-    assert!(text.contains("line 36: spindle-speed is 12001"), "{text}");
+    assert!(text.contains("line 37: spindle-speed is 12001"), "{text}");
 }
 
 #[test]

@@ -52,8 +52,7 @@ fn mill(drawing: &str, job: &str) -> (String, Value, Option<i32>) {
 }
 
 const COARSE: &str = "[[operation]]\nname = \"coarse\"\nkind = \"pocket\"\ntool = 1\ndepth = 2\npath-radius = 0\nselect = { id = \"neck\" }\n";
-const FINE: &str =
-    "[[operation]]\nname = \"fine\"\nkind = \"pocket\"\ntool = 2\ndepth = 2\npath-radius = 0\nselect = { id = \"neck\" }\nrest-of = 1\n";
+const FINE: &str = "[[operation]]\nname = \"fine\"\nkind = \"pocket\"\ntool = 2\ndepth = 2\npath-radius = 0\nselect = { id = \"neck\" }\nrest-of = 1\n";
 
 #[test]
 fn what_a_later_operation_cuts_is_no_failure() {
@@ -97,8 +96,14 @@ fn what_is_unusual_is_warned_of() {
     for (job, words) in [
         (profile("tool = 1\ndepth = 3\n"), "it cuts 3.000 mm deep in all, and the flutes of tool 1 are 2 mm long"),
         (profile("tool = 3\ndepth = 1\n"), "a fillet of 2 mm at the foot of the wall"),
-        (format!("{HEAD}[[operation]]\nkind = \"facing\"\ntool = 3\ndepth = 0.5\nstepover = 2\n"), "ridges 0.268 mm high"),
-        (profile("tool = 2\ndepth = 1\n").replace("width = 60", "width = 50"), "beyond the edge of the stock, 50 x 40 mm"),
+        (
+            format!("{HEAD}[[operation]]\nkind = \"facing\"\ntool = 3\ndepth = 0.5\nstepover = 2\n"),
+            "ridges 0.268 mm high",
+        ),
+        (
+            profile("tool = 2\ndepth = 1\n").replace("width = 60", "width = 45"),
+            "beyond the edge of the stock, 45 x 40 mm",
+        ),
     ] {
         let (text, json, _) = mill(NECK, &job);
         assert!(text.contains(words), "{words}: {text}");

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, anyhow, bail};
 
+use super::engaged::{laps, with_heights};
 use super::select::select;
 use super::setup_report::SetupReport;
 use super::setup_saved::time_saved;
 use super::{FormatArg, MillArgs, Verdict, keep_page, setup_page, stock_edges, target};
 use crate::cam::{
-    self, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder, Setup,
+    self, Entry, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder, Setup,
     SetupFile, Side, Step, check_amount, check_operation, plan_operation, split_operations,
 };
 use crate::check::{LostFeature, lost_features};
@@ -63,7 +64,7 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     };
     let mut file: SetupFile = text.parse().with_context(|| job.display().to_string())?;
     let settings = read_machine_settings(&mut file, job)?;
-    let setup = file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string())?;
+    let mut setup = file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string())?;
     let (dialect, dialect_file) = input::dialect_beside(&setup.rig.dialect, job)?;
     // All that is read: nothing of it may be written over.
     let inputs: Vec<&Path> = [Some(args.input.as_path()), Some(job), settings.as_deref(), dialect_file.as_deref()]
@@ -71,6 +72,10 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         .flatten()
         .collect();
     keep_inputs(&inputs, [target.as_path()].into_iter().chain(args.html.as_deref()))?;
+    if !dialect.has_depth() {
+        // Nothing goes down: on a ramp the beam would go around several times in one pass.
+        setup.operations.iter_mut().for_each(|o| o.cutting.entry = Entry::Plunge);
+    }
     let shift = shift(file.stock.zero.unwrap_or(cam::DEFAULT_ORIGIN), &shapes, mm_per_unit);
     let options = WriteOptions {
         units: if setup.rig.inches { Units::Inches } else { Units::Millimetres },
@@ -90,7 +95,7 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     }
     let steps = steps(&setup, &planned);
     let written = write(args, &setup, &dialect, options, &steps, &target)?;
-    let done = hold_against(&setup, planned, &written)?;
+    let done = hold_against(&setup, &dialect, planned, &written)?;
     let mut unsafe_travel = beyond_travel(&setup, &written);
     unsafe_travel.extend(collisions(&setup, &written));
     let beyond_stock = stock_edges::beyond(&setup, file.stock.zero.unwrap_or(cam::DEFAULT_ORIGIN), &done);
@@ -226,6 +231,8 @@ fn write(
         let findings = gcode::lint(&file.text, &LintOptions { dialect, stock_top: setup.stock.top });
         let program =
             gcode::read_as(&file.text, dialect).context("the program cannot be read back; please report this")?;
+        let deepest = setup.operations.iter().map(|o| o.cutting.depth).fold(0.0, f64::max);
+        let program = with_heights(program, dialect, setup.rig.safe_height, setup.stock.top - deepest);
         written.push(Written { index, path, text: file.text, program, findings });
     }
     Ok(written)
@@ -255,7 +262,12 @@ fn drawing_name(args: &MillArgs) -> String {
 }
 
 /// Every operation against the part of the programs that is its own.
-fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]) -> Result<Vec<Done<'a>>> {
+fn hold_against<'a>(
+    setup: &'a Setup,
+    dialect: &Dialect,
+    planned: Vec<Planned>,
+    written: &[Written],
+) -> Result<Vec<Done<'a>>> {
     let runs: Vec<(usize, Program)> =
         written.iter().flat_map(|w| split_operations(&w.program).into_iter().map(|run| (w.index, run))).collect();
     if runs.len() != planned.len() {
@@ -269,7 +281,13 @@ fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]
     Ok(all
         .map(|((operation, planned), (program, run))| {
             let tool = setup.tool_of(operation);
-            let check = check_operation(&run, operation, &planned, tool, setup.stock.top, &setup.rig.limits);
+            let (top, up) = (setup.stock.top, setup.rig.safe_height);
+            let run = with_heights(run, dialect, up, top - operation.cutting.depth);
+            let mut check = check_operation(&run, operation, &planned, tool, top, &setup.rig.limits);
+            if !dialect.has_depth() && check.passes[0] > 0 {
+                // All passes are at one height: what counts is how often it goes around.
+                check.passes[1] = laps(&run, top).min(check.passes[0]);
+            }
             let acceleration = setup.rig.limits.acceleration;
             let path_radius = operation.cutting.path_radius_mm(acceleration[0].min(acceleration[1]));
             let lost = lost(operation, &planned, tool.radius() + path_radius);

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 
+use super::engaged::with_heights;
 use super::setup::{Done, Written, steps};
 use crate::cam::{Geometry, Hole, Operation, OperationKind, PathRadius, Setup, TimeSaved, plan_operation};
 use crate::gcode::{self, Dialect, WriteOptions};
@@ -42,7 +43,9 @@ pub(super) fn time_saved(
     let files = gcode::write_files(&steps(&sharp, &planned), &[], dialect, options).ok()?;
     let mut saved = TimeSaved { same_outlines, ..TimeSaved::default() };
     for (file, written) in files.iter().zip(written) {
+        let deepest = setup.operations.iter().map(|o| o.cutting.depth).fold(0.0, f64::max);
         let program = gcode::read_as(&file.text, dialect).ok()?;
+        let program = with_heights(program, dialect, setup.rig.safe_height, setup.stock.top - deepest);
         saved = saved.and(&TimeSaved::between(&written.program, &program, &setup.rig.limits, setup.stock.top));
     }
     Some(saved)

@@ -92,6 +92,9 @@ impl Resolver<'_> {
             .or(file.plunge_feed)
             .or(rates.plunge_feed)
             .unwrap_or_else(|| speed(DEFAULT_PLUNGE_FEED));
+        for (key, feed) in [("feed", feed), ("plunge-feed", plunge_feed)] {
+            self.rate(place(key), Some(feed.mm_per_min()));
+        }
         let spindle = self.flags.spindle_speed.or(file.spindle_speed).or(rates.spindle_speed);
         let spindle_speed = self.rate(place("spindle-speed"), spindle).unwrap_or(DEFAULT_SPINDLE_SPEED);
         let path_radius = match self.flags.path_radius.or(file.path_radius) {

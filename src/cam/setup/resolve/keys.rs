@@ -68,7 +68,7 @@ impl Resolver<'_> {
                 self.at(
                     place,
                     format!(
-                        "{} means nothing in a {} operation: leave it out, it belongs to {}{}",
+                        "{} means nothing in an operation of kind {}: leave it out, it belongs to {}{}",
                         key.name,
                         kind.word(),
                         takers.join(", "),
