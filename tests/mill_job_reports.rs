@@ -114,6 +114,16 @@ fn what_is_unusual_is_warned_of() {
 }
 
 #[test]
+fn a_size_without_a_unit_is_noted() {
+    let drill = "[[operation]]\nkind = \"drill\"\ntool = 2\ndepth = 1\nselect = { id = \"c\" }\n";
+    let plain = NECK.replace("60mm", "60").replace("40mm", "40").replace("r=\"1.5\"", "r=\"12\"");
+    let (text, ..) = mill(&plain, &format!("{HEAD}{drill}"));
+    assert!(text.contains("taken for 1/96 inch each: --dpi 25.4"), "{text}");
+    let (text, ..) = mill(NECK, &format!("{HEAD}{drill}"));
+    assert!(!text.contains("1/96"), "{text}");
+}
+
+#[test]
 fn sorting_by_tool_keeps_a_rest_behind_what_it_rests_on() {
     let first = "[[operation]]\nname = \"first\"\nkind = \"drill\"\ntool = 2\ndepth = 1\nselect = { id = \"c\" }\n";
     let (text, json, code) = mill(NECK, &format!("sort-by-tool = true\n{HEAD}{first}{COARSE}{FINE}"));

@@ -8,7 +8,9 @@ use clap::{Args, ValueEnum};
 
 use super::output;
 use crate::gcode::Dialect;
-use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, Parts, ReadOptions, Selection, Shapes, Strokes, Warning};
+use crate::io::svg::{
+    self, Curves, DEFAULT_FLATTEN, Drawing, Page, Parts, ReadOptions, Selection, Shapes, Strokes, Warning,
+};
 use crate::plane::{Region, Stretch};
 use crate::units::{DrawingScale, Length};
 
@@ -247,6 +249,15 @@ impl ReadArgs {
         let bytes = read_bytes(path)?;
         let drawing = svg::read_alike(&bytes, &self.options()?, other).with_context(|| path.display().to_string())?;
         Ok(Self::with_warnings(path, drawing))
+    }
+
+    /// What is to be known of the scale of a drawing for a machine: a size without a unit is often meant in millimetres.
+    pub(super) fn scale_note(&self, page: &Page) -> Option<&'static str> {
+        let is_said = self.dpi.is_some() || self.width.is_some();
+        (!is_said && page.has_size_without_unit()).then_some(
+            "the drawing's width and height have no unit and are taken for 1/96 inch each: --dpi 25.4 takes them for millimetres, \
+             --width says how wide the part is, and --dpi 96 that all is well",
+        )
     }
 
     fn with_warnings(path: &Path, drawing: Drawing) -> Drawing {

@@ -95,6 +95,9 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
              the part is (--width 100mm)"
         );
     };
+    if let Some(note) = args.reading.scale_note(&drawing.page) {
+        output::say(&format!("clopen: {name}: {note}\n"));
+    }
     let settings = read_settings(args, &drawing, &target)?;
     let job = &settings.job;
     let part = drawing.region.scaled(mm_per_unit);

@@ -16,6 +16,8 @@ pub(super) fn with_heights(mut program: Program, dialect: &Dialect, up: f64, dow
     for motion in &mut program.motions {
         let z = |z: f64| if is_engaged(motion, z) { down } else { up };
         let (from, to) = (z(motion.from.z), z(motion.to.z));
+        // A pen that is set down draws nothing yet.
+        let from = if (motion.to - motion.from).xy().norm() > SAME_PLACE { from } else { to };
         (motion.from.z, motion.to.z) = (from, to);
     }
     program

@@ -62,6 +62,9 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
              the part is (--width 100mm)"
         );
     };
+    if let Some(note) = args.reading.scale_note(&shapes.page) {
+        output::say(&format!("clopen: {name}: {note}\n"));
+    }
     let mut file: SetupFile = text.parse().with_context(|| job.display().to_string())?;
     let settings = read_machine_settings(&mut file, job)?;
     let mut setup = file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string())?;
