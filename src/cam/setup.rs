@@ -3,6 +3,7 @@
 mod amount;
 mod file;
 mod locate;
+mod plain_words;
 mod resolve;
 mod rest;
 mod sample;

@@ -163,7 +163,7 @@ impl Resolver<'_> {
         }
         let mut operations: Vec<Operation> = Vec::new();
         for (k, operation) in file.operation.iter().enumerate() {
-            let resolved = self.operation(operation.get_ref(), &operation.span(), k, &stock, &rig, &tools, file);
+            let resolved = self.operation(operation, k, &stock, &rig, &tools, file);
             operations.extend(resolved);
         }
         self.rests(file, &operations, &tools);

@@ -12,9 +12,9 @@ pub(super) fn with_heights(mut program: Program, dialect: &Dialect, up: f64, dow
     if dialect.has_depth() {
         return program;
     }
-    let Some(is_engaged) = engagement(dialect) else { return program };
+    let Some(engagement) = Engagement::of(dialect) else { return program };
     for motion in &mut program.motions {
-        let z = |z: f64| if is_engaged(motion, z) { down } else { up };
+        let z = |z: f64| if engagement.is_in(motion, z) { down } else { up };
         let (from, to) = (z(motion.from.z), z(motion.to.z));
         // A pen that is set down draws nothing yet.
         let from = if (motion.to - motion.from).xy().norm() > SAME_PLACE { from } else { to };
@@ -23,19 +23,38 @@ pub(super) fn with_heights(mut program: Program, dialect: &Dialect, up: f64, dow
     program
 }
 
-/// Whether beam or pen work at the end of a motion that has this height, as the dialect tells it.
-fn engagement(dialect: &Dialect) -> Option<Box<dyn Fn(&Motion, f64) -> bool>> {
-    Some(match (dialect.machine, dialect.pen_up_z, dialect.pen_down_z) {
-        // A rapid is dark in laser mode, and without it a finding of its own.
-        (MachineKind::Laser, ..) => Box::new(|m, _| m.spindle_on && m.spindle_speed > 0.0 && m.is_feed()),
-        (MachineKind::Pen, Some(up), Some(down)) => Box::new(move |_, z| z < 0.5 * (up + down)),
-        // A servo on the pin of the spindle's speed.
-        (MachineKind::Pen, ..) => {
-            let (up, down) = (speed(&dialect.pen_up)?, speed(&dialect.pen_down)?);
-            Box::new(move |m, _| (m.spindle_speed - down).abs() < (m.spindle_speed - up).abs())
+/// How a program tells whether beam or pen are at work.
+#[derive(Clone, Copy)]
+enum Engagement {
+    /// Power, at a feed: a rapid is dark in laser mode, and without it a finding of its own.
+    Power,
+    /// Z below this height.
+    Below(f64),
+    /// A servo on the pin of the spindle's speed.
+    Servo { up: f64, down: f64 },
+}
+
+impl Engagement {
+    /// What `dialect` does; `None` where its lines do not tell.
+    fn of(dialect: &Dialect) -> Option<Engagement> {
+        Some(match (dialect.machine, dialect.pen_up_z, dialect.pen_down_z) {
+            (MachineKind::Laser, ..) => Engagement::Power,
+            (MachineKind::Pen, Some(up), Some(down)) => Engagement::Below(0.5 * (up + down)),
+            (MachineKind::Pen, ..) => {
+                Engagement::Servo { up: speed(&dialect.pen_up)?, down: speed(&dialect.pen_down)? }
+            }
+            (MachineKind::Router, ..) => return None,
+        })
+    }
+
+    /// Whether beam or pen are at work at the end of `motion` that has the height `z`.
+    fn is_in(self, motion: &Motion, z: f64) -> bool {
+        match self {
+            Engagement::Power => motion.spindle_on && motion.spindle_speed > 0.0 && motion.is_feed(),
+            Engagement::Below(height) => z < height,
+            Engagement::Servo { up, down } => (motion.spindle_speed - down).abs() < (motion.spindle_speed - up).abs(),
         }
-        (MachineKind::Router, ..) => return None,
-    })
+    }
 }
 
 /// The last S of these lines.

@@ -1,6 +1,6 @@
 //! Operations of a job file.
 
-use std::ops::Range;
+use toml::Spanned;
 
 use super::cutting::rates;
 use super::{Place, Resolver};
@@ -29,14 +29,14 @@ const LARGEST_STEPOVER: f64 = 0.95;
 impl Resolver<'_> {
     pub(super) fn operation(
         &mut self,
-        file: &OperationFile,
-        table: &Range<usize>,
+        typed: &Spanned<OperationFile>,
         index: usize,
         stock: &Workpiece,
         rig: &Rig,
         tools: &[Tool],
         whole: &SetupFile,
     ) -> Option<Operation> {
+        let (file, table) = (typed.get_ref(), &typed.span());
         let place = |key| Place { table, key };
         let Some(kind) = file.kind.as_deref() else {
             self.at(
