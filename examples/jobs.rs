@@ -174,10 +174,18 @@ fn job(numbers: &mut Numbers) -> String {
         _ if numbers.below(3) == 0 => add("through = true".into()),
         _ => add(format!("depth = {:.2}", numbers.between(0.3, 6.0))),
     }
-    add(format!("entry = \"{}\"", ["ramp", "helix", "plunge"][numbers.below(3)]));
-    add(format!("direction = \"{}\"", ["climb", "conventional"][numbers.below(2)]));
-    if numbers.below(2) == 0 {
-        add(format!("path-radius = {:.2}", numbers.between(0.0, 1.5)));
+    // Drawn for every kind, so that a number stays the same job; said where it means something.
+    let entry = ["ramp", "helix", "plunge"][numbers.below(3)];
+    if kind != "v-carve" {
+        add(format!("entry = \"{entry}\""));
+    }
+    let direction = ["climb", "conventional"][numbers.below(2)];
+    if kind != "engrave" {
+        add(format!("direction = \"{direction}\""));
+    }
+    let path_radius = (numbers.below(2) == 0).then(|| numbers.between(0.0, 1.5));
+    if let Some(radius) = path_radius.filter(|_| !matches!(kind, "engrave" | "v-carve")) {
+        add(format!("path-radius = {radius:.2}"));
     }
     if matches!(kind, "profile" | "chamfer") {
         add(format!("side = \"{}\"", ["outside", "inside"][numbers.below(2)]));

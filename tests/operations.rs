@@ -193,7 +193,7 @@ fn every_impossible_value_is_told_with_its_line_and_the_nearest_name() {
         (job("depth = 3\ntabs = { count = 2, height = 4 }"), format!("line {}: tabs of 4 mm are higher", line + 1)),
         (job("depth = 3\nside = \"left\""), format!("line {}", line + 1)),
         (job("depth = 3\npasses = \"stepd\""), "did you mean \"stepped\"?".into()),
-        (job("depth = 30"), format!("line {line}: depth is 30 mm, far below the stock")),
+        (job("depth = 30"), format!("line {line}: depth is 30 mm, and the stock is")),
         (job(""), "this operation needs a depth, or through = true".into()),
         (format!("{TOOLS}[[operation]]\nkind = \"profil\"\ntool = 1\ndepth = 1"), "did you mean \"profile\"?".into()),
         (

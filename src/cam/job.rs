@@ -41,6 +41,8 @@ pub const DEFAULT_ENTRY: Entry = Entry::Ramp;
 const LARGEST_LENGTH: f64 = 10_000.0;
 /// Smallest tool and depth of a job, in millimetres: a few times what a machine resolves.
 const SMALLEST_LENGTH: f64 = 0.01;
+/// Smallest rate of any kind, in mm/min, turns a minute or mm/s²: below it times lose their meaning.
+const SMALLEST_RATE: f64 = 0.1;
 /// Largest number of passes: more is a slip of the unit.
 const LARGEST_PASS_COUNT: f64 = 1000.0;
 /// Largest spindle speed in revolutions a minute, feed in mm/min, acceleration in mm/s², and dwell in seconds.
@@ -199,6 +201,16 @@ impl Job {
         above_zero("plunge-feed", self.plunge_feed.mm_per_min(), LARGEST_RATE);
         above_zero("spindle-speed", self.spindle_speed, LARGEST_RATE);
         above_zero("acceleration", self.acceleration, LARGEST_RATE);
+        for (field, value) in [
+            ("feed", self.feed.mm_per_min()),
+            ("plunge-feed", self.plunge_feed.mm_per_min()),
+            ("spindle-speed", self.spindle_speed),
+            ("acceleration", self.acceleration),
+        ] {
+            if value > 0.0 && value < SMALLEST_RATE {
+                problems.push(JobProblem::TooSlow { field, value, limit: SMALLEST_RATE });
+            }
+        }
         let mut zero_or_more = |field, value: f64, limit: f64| {
             if !(value.is_finite() && value >= 0.0) {
                 problems.push(JobProblem::Negative { field, value });
@@ -305,6 +317,11 @@ mod tests {
         assert!(!text.contains("path-radius"), "{text}");
         let slip = Job { depth_per_pass: 1e-6, ..Job::default() };
         assert!(matches!(slip.validate().unwrap_err().problems[..], [JobProblem::TooManyPasses { .. }]));
+        let slow = Job { acceleration: 1e-300, path_radius: PathRadius::Length(0.0), ..Job::default() };
+        assert!(matches!(
+            slow.validate().unwrap_err().problems[..],
+            [JobProblem::TooSlow { field: "acceleration", .. }]
+        ));
         let radius = Job { path_radius: PathRadius::Length(-1.0), ..Job::default() };
         assert!(radius.validate().unwrap_err().to_string().contains("path-radius is -1"));
     }

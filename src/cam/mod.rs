@@ -88,9 +88,9 @@ pub use path_radius::{PathPlace, TightestTurns, tightest_turns};
 pub use plan::{PlanError, plan, translation};
 pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
 pub use setup::{
-    Corners, Cutting, InvalidSetup, Operation, OperationKind, Pattern, Rig, SETUP_VERSION, SampleShape, SelectFile,
-    Setup, SetupFile, SetupProblem, Steps, TabPlaces, Tabs, Words, Workpiece, chip_load, commented_sample,
-    surface_speed,
+    AmountError, Corners, Cutting, InvalidSetup, Operation, OperationKind, Pattern, Rig, SETUP_VERSION, SampleShape,
+    SelectFile, Setup, SetupFile, SetupProblem, Steps, TabPlaces, Tabs, Words, Workpiece, check_amount, chip_load,
+    commented_sample, surface_speed,
 };
 pub use side::Side;
 pub use simulate::{DEFAULT_SPOIL, SimulateError, SimulateOptions, Simulation, check_tools, simulate};

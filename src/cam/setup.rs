@@ -1,15 +1,21 @@
 //! A whole job: the stock, the machine, its tools, and the operations in their order. Lengths are millimetres.
 
+mod amount;
 mod file;
 mod locate;
+mod plain_words;
 mod resolve;
+mod rest;
 mod sample;
+mod warnings;
 
 use super::{Direction, Entry, Keepout, Machine, Origin, PathRadius, Side, Tool};
 use crate::rolling::Topology;
 use crate::units::Speed;
+pub use amount::{AmountError, check_amount};
 pub use file::{InvalidSetup, SelectFile, SetupFile, SetupProblem, Words};
 pub use sample::{SampleShape, commented_sample};
+pub use warnings::{chip_load, surface_speed};
 
 /// The version of job files with operations that this program reads.
 pub const SETUP_VERSION: i64 = 1;
@@ -131,6 +137,16 @@ pub enum OperationKind {
     },
 }
 
+impl OperationKind {
+    /// The diameter of the larger tool whose rest is cut, where it is only that.
+    pub fn rest_of(&self) -> Option<f64> {
+        match self {
+            OperationKind::Profile { rest_of, .. } | OperationKind::Pocket { rest_of, .. } => *rest_of,
+            _ => None,
+        }
+    }
+}
+
 /// What happens to inside corners that a round tool leaves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Corners {
@@ -162,6 +178,9 @@ pub enum Steps {
     /// In the largest steps, and a smaller last one.
     Stepped,
 }
+
+/// The most tabs of an outline: more hold no part better, and are a slip of the unit.
+const MOST_TABS: usize = 1000;
 
 /// Pieces that hold a part.
 #[derive(Clone, Debug, PartialEq)]
@@ -269,56 +288,4 @@ impl Setup {
     pub fn tool_of(&self, operation: &Operation) -> &Tool {
         &self.tools[operation.tool]
     }
-
-    /// What is unusual about feeds and speeds, in sentences: chips too thin or too thick, cutting edges too fast.
-    pub fn cutting_warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        for operation in &self.operations {
-            let tool = self.tool_of(operation);
-            let cutting = &operation.cutting;
-            let chip = chip_load(cutting.feed, cutting.spindle_speed, tool.flutes);
-            let share = chip / tool.diameter;
-            let label = &operation.label;
-            if cutting.spindle_speed > 0.0 && !tool.is_drill {
-                if share > THICKEST_CHIP {
-                    warnings.push(format!(
-                        "operation \"{label}\": {chip:.3} mm a tooth is {:.1} % of the tool's diameter, more than most \
-                         end mills bear: lower the feed or raise the spindle speed",
-                        100.0 * share
-                    ));
-                } else if chip < THINNEST_CHIP {
-                    warnings.push(format!(
-                        "operation \"{label}\": {chip:.4} mm a tooth rubs rather than cuts, and dulls the edge: raise the \
-                         feed or lower the spindle speed"
-                    ));
-                }
-            }
-            let speed = surface_speed(tool.diameter, cutting.spindle_speed);
-            if speed > FASTEST_EDGE {
-                warnings.push(format!(
-                    "operation \"{label}\": the cutting edge runs at {speed:.0} m/min, faster than any common material bears"
-                ));
-            }
-        }
-        warnings
-    }
-}
-
-/// Chips thicker than this share of the tool's diameter break small end mills.
-const THICKEST_CHIP: f64 = 0.05;
-
-/// Chips thinner than this, in millimetres, are less than the radius of the cutting edge: it rubs.
-const THINNEST_CHIP: f64 = 0.002;
-
-/// Faster than this, in metres a minute, no common hobby material is cut: aluminium and wood bear about 1000.
-const FASTEST_EDGE: f64 = 3000.0;
-
-/// Millimetres that each tooth cuts: feed / (speed × flutes).
-pub fn chip_load(feed: Speed, spindle_speed: f64, flutes: u32) -> f64 {
-    feed.mm_per_min() / (spindle_speed * f64::from(flutes.max(1)))
-}
-
-/// The speed of the cutting edge in metres a minute.
-pub fn surface_speed(diameter: f64, spindle_speed: f64) -> f64 {
-    std::f64::consts::PI * diameter * spindle_speed / 1000.0
 }

@@ -8,7 +8,9 @@ use clap::{Args, ValueEnum};
 
 use super::output;
 use crate::gcode::Dialect;
-use crate::io::svg::{self, Curves, DEFAULT_FLATTEN, Drawing, Parts, ReadOptions, Selection, Shapes, Strokes, Warning};
+use crate::io::svg::{
+    self, Curves, DEFAULT_FLATTEN, Drawing, Page, Parts, ReadOptions, Selection, Shapes, Strokes, Warning,
+};
 use crate::plane::{Region, Stretch};
 use crate::units::{DrawingScale, Length};
 
@@ -86,27 +88,30 @@ pub(super) fn millimetres(length: Length, option: &str) -> Result<f64> {
 /// # Errors
 /// Lists the names, or names the file and the key that is wrong.
 pub(super) fn dialect(asked: &str) -> Result<Dialect> {
-    let path = Path::new(asked);
-    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("toml")) {
-        return Ok(Dialect::named(asked)?.clone());
-    }
+    let Some(path) = dialect_file(asked) else { return Ok(Dialect::named(asked)?.clone()) };
     // A name in a program is one word of ASCII.
     let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let name: String = stem.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect();
-    Dialect::parse(&read_text(path)?, &name).with_context(|| format!("{}: this is no dialect", path.display()))
+    Dialect::parse(&read_text(&path)?, &name).with_context(|| format!("{}: this is no dialect", path.display()))
 }
 
-/// The dialect that a job file asks for: files are looked for beside it.
+/// The file of the dialect that was asked for; `None` for one that is built in.
+pub(super) fn dialect_file(asked: &str) -> Option<PathBuf> {
+    let path = Path::new(asked);
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")).then(|| path.to_path_buf())
+}
+
+/// The dialect that a job file asks for, and its file where it has one: files are looked for beside the job.
 ///
 /// # Errors
 /// As [`dialect`].
-pub(super) fn dialect_beside(asked: &str, job: &Path) -> Result<Dialect> {
+pub(super) fn dialect_beside(asked: &str, job: &Path) -> Result<(Dialect, Option<PathBuf>)> {
     let beside = job.parent().map(|folder| folder.join(asked));
     match beside {
         Some(path) if asked.to_ascii_lowercase().ends_with(".toml") && path.is_file() => {
-            dialect(&path.to_string_lossy())
+            Ok((dialect(&path.to_string_lossy())?, Some(path)))
         }
-        _ => dialect(asked),
+        _ => Ok((dialect(asked)?, dialect_file(asked))),
     }
 }
 
@@ -244,6 +249,15 @@ impl ReadArgs {
         let bytes = read_bytes(path)?;
         let drawing = svg::read_alike(&bytes, &self.options()?, other).with_context(|| path.display().to_string())?;
         Ok(Self::with_warnings(path, drawing))
+    }
+
+    /// What is to be known of the scale of a drawing for a machine: a size without a unit is often meant in millimetres.
+    pub(super) fn scale_note(&self, page: &Page) -> Option<&'static str> {
+        let is_said = self.dpi.is_some() || self.width.is_some();
+        (!is_said && page.has_size_without_unit()).then_some(
+            "the drawing's width and height have no unit and are taken for 1/96 inch each: --dpi 25.4 takes them for millimetres, \
+             --width says how wide the part is, and --dpi 96 that all is well",
+        )
     }
 
     fn with_warnings(path: &Path, drawing: Drawing) -> Drawing {

@@ -2,12 +2,15 @@
 
 mod args;
 mod differences;
+mod engaged;
 mod init;
 mod page;
 mod select;
 mod setup;
 mod setup_page;
 mod setup_report;
+mod setup_saved;
+mod stock_edges;
 
 use std::path::{Path, PathBuf};
 
@@ -17,8 +20,8 @@ use super::check::FormatArg;
 use super::report::{MillReport, Verdict};
 use super::{ExitStatus, input, output};
 use crate::cam::{
-    self, Certificate, CertifyOptions, Job, JobFile, Machine, OffsetError, PathRadius, PlanError, Program, Remainder,
-    SetupFile, Side, TimeSaved, Toolpath,
+    self, Certificate, CertifyOptions, Entry, Job, JobFile, Machine, OffsetError, PathRadius, PlanError, Program,
+    Remainder, SetupFile, Side, TimeSaved, Toolpath,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
@@ -29,6 +32,7 @@ use crate::reference::Operation;
 use crate::rolling::{self, Topology};
 use crate::units::Radius;
 pub(super) use args::MillArgs;
+use engaged::with_heights;
 
 /// What the flags and the job file say together.
 struct Settings {
@@ -91,7 +95,10 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
              the part is (--width 100mm)"
         );
     };
-    let settings = read_settings(args, &drawing)?;
+    if let Some(note) = args.reading.scale_note(&drawing.page) {
+        output::say(&format!("clopen: {name}: {note}\n"));
+    }
+    let settings = read_settings(args, &drawing, &target)?;
     let job = &settings.job;
     let part = drawing.region.scaled(mm_per_unit);
     let plan = make_plan(&settings, &part).with_context(|| name.to_string())?;
@@ -145,13 +152,25 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     })
 }
 
-fn read_settings(args: &MillArgs, drawing: &Drawing) -> Result<Settings> {
+fn read_settings(args: &MillArgs, drawing: &Drawing, target: &Path) -> Result<Settings> {
     let mut typed = args.typed();
     if let Some(path) = &args.job {
         let file: JobFile = input::read_text(path)?.parse().with_context(|| path.display().to_string())?;
         typed = typed.over(file);
     }
-    let dialect = input::dialect(typed.dialect.as_deref().unwrap_or("grbl"))?;
+    let asked = typed.dialect.as_deref().unwrap_or("grbl");
+    let dialect = input::dialect(asked)?;
+    if let Some(file) = input::dialect_file(asked) {
+        for result in
+            [Some(target.to_path_buf()), Some(target.with_extension("png")), args.html.clone()].iter().flatten()
+        {
+            output::keep_input(&file, result)?;
+        }
+    }
+    if !dialect.has_depth() {
+        // Nothing goes down: on a ramp the beam would go around several times in one pass.
+        typed.entry = Some(Entry::Plunge);
+    }
     Ok(Settings {
         job: typed.resolve(&drawing.scale())?,
         topology: typed.topology.unwrap_or(Topology::Merge),
@@ -231,7 +250,8 @@ fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
     let header = header(args, settings, plan);
     let text = gcode::write(&plan.toolpath, &header, dialect, *options)?;
     let findings = gcode::lint(&text, &LintOptions { dialect, stock_top: job.stock_top });
-    let program = gcode::read(&text).context("the program cannot be read back; please report this")?;
+    let program = gcode::read_as(&text, dialect).context("the program cannot be read back; please report this")?;
+    let program = with_heights(program, dialect, job.safe_height, job.stock_top - job.depth);
     let machine = machine(job);
     let remainder = match job.side {
         Side::Outside | Side::On => Remainder::Inside,
@@ -252,8 +272,9 @@ fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
     if options.arcs == Arcs::Lines {
         // Between lines every joint is a corner: what counts is the path that they stand for.
         let round = WriteOptions { arcs: Arcs::Arcs, ..*options };
-        let round = gcode::read(&gcode::write(&plan.toolpath, &header, dialect, round)?);
+        let round = gcode::read_as(&gcode::write(&plan.toolpath, &header, dialect, round)?, dialect);
         let round = round.context("the path cannot be read back; please report this")?;
+        let round = with_heights(round, dialect, job.safe_height, job.stock_top - job.depth);
         certificate.path_radius = cam::tightest_turns(&round, &plan.kept, remainder, job.stock_top);
     }
     Ok(Checked { text, program, findings, certificate })
@@ -274,7 +295,9 @@ fn time_saved(settings: &Settings, part: &Region, plan: &Plan, program: &Program
     let sharp = Settings { job: sharp, dialect: settings.dialect.clone(), ..*settings };
     let (_, toolpath, _) = shape(&sharp, part).ok()?;
     let text = gcode::write(&toolpath, &[], &settings.dialect, settings.options).ok()?;
-    let saved = TimeSaved::between(program, &gcode::read(&text).ok()?, &machine(job), job.stock_top);
+    let sharp = gcode::read_as(&text, &settings.dialect).ok()?;
+    let sharp = with_heights(sharp, &settings.dialect, job.safe_height, job.stock_top - job.depth);
+    let saved = TimeSaved::between(program, &sharp, &machine(job), job.stock_top);
     Some(TimeSaved { same_outlines: toolpath.contour_count == plan.toolpath.contour_count, ..saved })
 }
 

@@ -93,8 +93,10 @@ pub fn read(text: &str) -> Result<GrblSettings, GrblSettingsError> {
         let Some((place, expected)) = settings.place(setting) else { continue };
         let value = value.map_err(|_| bad())?;
         let is_good = match expected {
-            Expected::Positive => value.is_finite() && value > 0.0,
-            Expected::NotNegative => value.is_finite() && value >= 0.0,
+            Expected::Positive => value > 0.0 && value <= LARGEST_VALUE,
+            Expected::NotNegative => (0.0..=LARGEST_VALUE).contains(&value),
+            Expected::Rate => (SMALLEST_RATE..=LARGEST_VALUE).contains(&value),
+            Expected::Deviation => value > 0.0 && value <= LARGEST_DEVIATION,
         };
         if !is_good {
             return Err(GrblSettingsError::Value { line, setting, value, expected: expected.words() });
@@ -110,17 +112,30 @@ pub fn read(text: &str) -> Result<GrblSettings, GrblSettingsError> {
 /// The setting that says whether S is a beam's power.
 const LASER_MODE: u32 = 32;
 
+/// More than any machine does, of any unit: mm, mm/min, mm/s², turns a minute.
+const LARGEST_VALUE: f64 = 1e6;
+
+/// Slower than this, in mm/min or mm/s², a machine stands still for all that anyone sees.
+const SMALLEST_RATE: f64 = 0.1;
+
+/// Larger than this, in millimetres, a deviation is a slip of the unit.
+const LARGEST_DEVIATION: f64 = 1.0;
+
 #[derive(Clone, Copy)]
 enum Expected {
     Positive,
     NotNegative,
+    Rate,
+    Deviation,
 }
 
 impl Expected {
     fn words(self) -> &'static str {
         match self {
-            Expected::Positive => "it must be above zero",
-            Expected::NotNegative => "it must not be below zero",
+            Expected::Positive => "it must be above zero, and at most 1000000",
+            Expected::NotNegative => "it must not be below zero, and at most 1000000",
+            Expected::Rate => "it must be at least 0.1, and at most 1000000; values above zero move a machine",
+            Expected::Deviation => "it must be above zero, and at most 1 mm",
         }
     }
 }
@@ -130,13 +145,13 @@ impl GrblSettings {
     fn place(&mut self, setting: u32) -> Option<(&mut Option<f64>, Expected)> {
         let axis = (setting % 10) as usize;
         Some(match setting {
-            11 => (&mut self.junction_deviation, Expected::Positive),
-            12 => (&mut self.arc_tolerance, Expected::Positive),
+            11 => (&mut self.junction_deviation, Expected::Deviation),
+            12 => (&mut self.arc_tolerance, Expected::Deviation),
             30 => (&mut self.spindle_max, Expected::NotNegative),
             31 => (&mut self.spindle_min, Expected::NotNegative),
-            110..=112 => (&mut self.max_rate[axis], Expected::Positive),
-            120..=122 => (&mut self.acceleration[axis], Expected::Positive),
-            130..=132 => (&mut self.travel[axis], Expected::NotNegative),
+            110..=112 => (&mut self.max_rate[axis], Expected::Rate),
+            120..=122 => (&mut self.acceleration[axis], Expected::Rate),
+            130..=132 => (&mut self.travel[axis], Expected::Positive),
             _ => return None,
         })
     }
@@ -197,6 +212,10 @@ mod tests {
             ("$110=", "line 1"),
             ("\n\n$120=-5", "line 3: $120 is -5"),
             ("$111=0", "above zero"),
+            ("\n$130=0", "line 2: $130 is 0"),
+            ("$120=1e308", "line 1: $120 is 1"),
+            ("$110=1e-300", "at least 0.1"),
+            ("$11=2", "at most 1 mm"),
             ("$12=nan", "$12 is NaN"),
             ("$-1=3", "$NUMBER=VALUE"),
             ("$110=2000\n$110=3000", "line 2: $110 is said again"),

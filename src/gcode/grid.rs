@@ -5,8 +5,11 @@
 
 use std::fmt;
 
-/// The largest multiple, 100 m in ten thousandths of a millimetre: five such numbers and a feed fit a line of 79.
-const LARGEST: f64 = 1e9;
+/// The largest place that is written, in millimetres: 100 m. With four decimals five such numbers and a feed fit a line of 79.
+const LARGEST_PLACE: f64 = 1e5;
+
+/// The largest feed, speed or time that is written: beyond any machine.
+const LARGEST_VALUE: f64 = 1e6;
 
 /// The places that can be written: multiples of `step` millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +33,7 @@ impl Grid {
 
     /// The nearest multiple; `None` for what cannot be written.
     pub(super) fn round(&self, mm: f64) -> Option<i64> {
-        let multiple = (mm / self.step).round();
-        (multiple.abs() <= LARGEST).then_some(multiple as i64)
+        (mm.abs() <= LARGEST_PLACE).then(|| (mm / self.step).round() as i64)
     }
 
     /// The millimetres of a multiple.
@@ -55,8 +57,8 @@ pub(super) struct Decimal {
 impl Decimal {
     /// `value` to at most `decimals` decimals; `None` for what cannot be written.
     pub(super) fn of(value: f64, decimals: u8) -> Option<Decimal> {
-        let multiple = Grid::new(decimals, 1.0).round(value)?;
-        Some(Decimal { multiple, decimals })
+        let multiple = (value * 10f64.powi(i32::from(decimals))).round();
+        (value.abs() <= LARGEST_VALUE).then_some(Decimal { multiple: multiple as i64, decimals })
     }
 }
 
@@ -101,6 +103,8 @@ mod tests {
             assert!(Decimal::of(value, 4).is_none(), "{value}");
         }
         assert_eq!(Decimal::of(2.4, 0).unwrap().to_string(), "2");
+        assert_eq!(Decimal::of(1200.123_456, 6).unwrap().to_string(), "1200.123456");
+        assert_eq!(Decimal::of(-100_000.0, 6).unwrap().to_string(), "-100000");
     }
 
     #[test]

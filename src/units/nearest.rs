@@ -1,45 +1,50 @@
 //! The word that was probably meant.
 
 /// A slip of the keyboard changes at most this share of the letters of a name; a name is not offered beyond it.
-const LARGEST_SLIP: f64 = 0.5;
+const LARGEST_SLIP: f64 = 0.4;
 
 /// Of `words` the one with the fewest changes of letters from `word`, the first of equals; none where all of them are
-/// other words altogether.
+/// other words.
 pub fn nearest<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
     let letters: Vec<char> = word.chars().collect();
     let rated = words.map(|other| (changes(&letters, other), other));
     let (changes, found) = rated.reduce(|a, b| if b.0 < a.0 { b } else { a })?;
-    // Words that have no letter in common are as many changes apart as the longer one has letters.
-    (changes < letters.len().max(found.chars().count())).then_some(found)
+    (changes as f64 <= LARGEST_SLIP * letters.len().max(found.chars().count()) as f64).then_some(found)
 }
 
 /// The name of `names` that is nearest to what was `typed`, in any case; `None` where none is near. Of equally near ones
 /// the first.
 pub fn nearest_name<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let typed = typed.trim().to_lowercase();
+    let typed: Vec<char> = typed.trim().to_lowercase().chars().collect();
     let mut best: Option<(usize, &str)> = None;
     for name in names {
-        let distance = changes(&typed.chars().collect::<Vec<_>>(), &name.to_lowercase());
+        let distance = changes(&typed, &name.to_lowercase());
         if best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, name));
         }
     }
     let (distance, name) = best?;
-    let longest = typed.chars().count().max(name.chars().count());
+    let longest = typed.len().max(name.chars().count());
     (distance as f64 <= LARGEST_SLIP * longest as f64).then_some(name)
 }
 
-/// How many letters have to be put in, taken out or exchanged to make one word of the other (Levenshtein).
+/// How many letters have to be put in, taken out, exchanged or swapped with their neighbour to make one word of the other
+/// (Levenshtein; optimal string alignment).
 fn changes(word: &[char], other: &str) -> usize {
+    let other: Vec<char> = other.chars().collect();
+    let mut before: Vec<usize> = Vec::new();
     let mut row: Vec<usize> = (0..=word.len()).collect();
-    for (i, letter) in other.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
+    for (i, letter) in other.iter().enumerate() {
+        let mut next = vec![i + 1];
         for (j, own) in word.iter().enumerate() {
-            let exchanged = diagonal + usize::from(*own != letter);
-            diagonal = row[j + 1];
-            row[j + 1] = exchanged.min(diagonal + 1).min(row[j] + 1);
+            let exchanged = row[j] + usize::from(own != letter);
+            let mut least = exchanged.min(row[j + 1] + 1).min(next[j] + 1);
+            if i > 0 && j > 0 && *own == other[i - 1] && word[j - 1] == *letter {
+                least = least.min(before[j - 1] + 1);
+            }
+            next.push(least);
         }
+        before = std::mem::replace(&mut row, next);
     }
     row[word.len()]
 }
@@ -52,7 +57,7 @@ mod tests {
     fn the_nearest_word_is_found() {
         let words = ["plate", "part-A", "part-B"];
         for (typed, meant) in
-            [("part-a", Some("part-A")), ("plat", Some("plate")), ("A-part", Some("part-A")), ("x", None)]
+            [("part-a", Some("part-A")), ("plat", Some("plate")), ("patr-A", Some("part-A")), ("x", None)]
         {
             assert_eq!(nearest(typed, words.into_iter()), meant, "{typed}");
         }
@@ -63,6 +68,7 @@ mod tests {
     fn changes_are_counted() {
         let count = |a: &str, b| changes(&a.chars().collect::<Vec<_>>(), b);
         assert_eq!((count("kitten", "sitting"), count("", "abc"), count("abc", "")), (3, 3, 3));
+        assert_eq!((count("loewr", "lower"), count("ab", "ba"), count("abc", "cab")), (1, 1, 2));
     }
 
     #[test]
@@ -72,6 +78,9 @@ mod tests {
         assert_eq!(nearest_name("Linux-CNC", names), Some("linuxcnc"));
         assert_eq!(nearest_name("mach4", names), Some("mach3"));
         assert_eq!(nearest_name("heidenhain", names), None);
+        for (typed, other) in [("wcs", "arcs"), ("below", "tool")] {
+            assert_eq!((nearest_name(typed, [other]), nearest(typed, [other].into_iter())), (None, None));
+        }
         assert_eq!(nearest_name("", names), None);
         assert_eq!(nearest_name("grbl", []), None);
     }

@@ -52,6 +52,16 @@ pub enum JobProblem {
         /// The least it may be, in millimetres.
         limit: f64,
     },
+    /// A rate at which a machine stands still for all that anyone sees.
+    #[error("{field} is {}: at least {limit} makes sense; is the unit right?", Brief(*.value))]
+    TooSlow {
+        /// Which value.
+        field: &'static str,
+        /// What it is.
+        value: f64,
+        /// The least it may be.
+        limit: f64,
+    },
     /// The tool would travel through the stock.
     #[error(
         "safe-height is {} mm, not above stock-top, {} mm: try safe-height = {}",

@@ -7,10 +7,11 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::locate::Locator;
+use super::plain_words::reworded;
 use crate::cam::job_file::{TypedPathRadius, typed};
 use crate::cam::{Direction, Entry, JobFile, Machine, Origin, Side};
 use crate::rolling::Topology;
-use crate::units::{Length, Speed, nearest};
+use crate::units::{Length, Speed};
 
 /// A job file with operations. Lengths and feeds are texts with a unit or bare numbers, which are millimetres and
 /// millimetres a minute.
@@ -91,11 +92,13 @@ pub struct MachineFile {
 
 impl MachineFile {
     /// Takes what the machine itself says, where this file says nothing.
-    pub fn take(&mut self, limits: &Machine, travel: Option<[f64; 3]>) {
+    pub fn take(&mut self, limits: &Machine, travel: Option<[f64; 3]>, largest_spindle_speed: Option<f64>) {
         self.acceleration.get_or_insert(PerAxis::Each(limits.acceleration));
         self.rapid.get_or_insert(PerAxis::Each(limits.rapid));
         self.junction_deviation.get_or_insert(Length::Millimetres(limits.junction_deviation));
         self.travel = self.travel.or(travel);
+        // A machine without a spindle says 0.
+        self.largest_spindle_speed = self.largest_spindle_speed.or(largest_spindle_speed.filter(|speed| *speed > 0.0));
     }
 }
 
@@ -264,6 +267,11 @@ impl OperationKindName {
         ("facing", OperationKindName::Facing),
         ("chamfer", OperationKindName::Chamfer),
     ];
+
+    /// The name as it is typed.
+    pub fn word(self) -> &'static str {
+        OperationKindName::ALL.iter().find(|(_, kind)| *kind == self).map_or("", |(word, _)| word)
+    }
 }
 
 /// `[[operation]]`.
@@ -327,7 +335,7 @@ pub struct OperationFile {
     pub allowance: Option<Length>,
     /// Whether the walls are cut again.
     pub finish: Option<bool>,
-    /// Pocket, facing: distance between paths; a length or a share of the diameter such as `0.4x`.
+    /// Pocket, facing: distance between paths; a length, or a share of the diameter such as `"40%"`.
     pub stepover: Option<toml::Value>,
     /// Pocket: `rings` or `raster`.
     pub pattern: Option<String>,
@@ -423,18 +431,6 @@ impl FromStr for SetupFile {
         })?;
         file.locator = locator;
         Ok(file)
-    }
-}
-
-/// serde's words about an unknown key, with the nearest one that there is.
-fn reworded(message: &str) -> String {
-    let Some(rest) = message.strip_prefix("unknown field `") else { return message.to_owned() };
-    let mut quoted = rest.split('`');
-    let (Some(key), Some(_)) = (quoted.next(), quoted.next()) else { return message.to_owned() };
-    let known: Vec<&str> = quoted.step_by(2).collect();
-    match nearest(key, known.iter().copied()) {
-        Some(near) => format!("there is no key \"{key}\" here; did you mean \"{near}\"?"),
-        None => format!("there is no key \"{key}\" here; there are {}", known.join(", ")),
     }
 }
 

@@ -1,11 +1,14 @@
 //! From what was typed to a job that makes sense.
 
 mod cutting;
+mod keys;
 mod operation;
+mod rest;
 mod tool;
 
 use std::ops::Range;
 
+use self::rest::sorted_by_tool;
 use super::file::{InvalidSetup, KeepoutFile, SetupFile, SetupProblem, refuse_flags};
 use super::locate::Locator;
 use super::{Operation, Rig, SETUP_VERSION, Setup, Workpiece};
@@ -18,6 +21,9 @@ const LARGEST_LENGTH: f64 = 10_000.0;
 
 /// Largest rate of any kind: feeds in mm/min, speeds in 1/min, accelerations in mm/s².
 const LARGEST_RATE: f64 = 1e6;
+
+/// Smallest rate of any kind: below it a machine stands still for all that anyone sees, and times lose their meaning.
+const SMALLEST_RATE: f64 = 0.1;
 
 impl SetupFile {
     /// The job, for a drawing of this scale, with what the flags say in place of what the file says.
@@ -95,10 +101,13 @@ impl Resolver<'_> {
 
     fn rate(&mut self, place: Place, value: Option<f64>) -> Option<f64> {
         let value = value?;
-        if value > 0.0 && value <= LARGEST_RATE {
+        if (SMALLEST_RATE..=LARGEST_RATE).contains(&value) {
             return Some(value);
         }
-        self.at(place, format!("{} is {value}: it must be above zero, and at most {LARGEST_RATE}", place.key));
+        self.at(
+            place,
+            format!("{} is {value}: it must be at least {SMALLEST_RATE}, and at most {LARGEST_RATE}", place.key),
+        );
         None
     }
 
@@ -154,15 +163,12 @@ impl Resolver<'_> {
         }
         let mut operations: Vec<Operation> = Vec::new();
         for (k, operation) in file.operation.iter().enumerate() {
-            let resolved = self.operation(operation.get_ref(), &operation.span(), k, &stock, &tools, file);
+            let resolved = self.operation(operation, k, &stock, &rig, &tools, file);
             operations.extend(resolved);
         }
+        self.rests(file, &operations, &tools);
         if file.sort_by_tool {
-            let first = |tool: usize| operations.iter().position(|o| o.tool == tool);
-            let ranks: Vec<Option<usize>> = operations.iter().map(|o| first(o.tool)).collect();
-            let mut order: Vec<usize> = (0..operations.len()).collect();
-            order.sort_by_key(|&k| (ranks[k], k));
-            operations = order.into_iter().map(|k| operations[k].clone()).collect();
+            operations = sorted_by_tool(operations, &tools);
         }
         Setup { stock, rig, tools, keepouts, operations }
     }
@@ -213,12 +219,14 @@ impl Resolver<'_> {
         let machine = &file.machine;
         let default = Machine::default();
         let mut axes = |key: &str, typed: Option<[f64; 3]>, default: [f64; 3]| match typed {
-            Some(values) if values.iter().all(|v| *v > 0.0 && *v <= LARGEST_RATE) => values,
+            Some(values) if values.iter().all(|v| (SMALLEST_RATE..=LARGEST_RATE).contains(v)) => values,
             Some(values) => {
                 let line = self.locator.line_in("machine", key);
                 self.problems.push(SetupProblem {
                     line,
-                    message: format!("{key} is {values:?}: every value must be above zero and at most {LARGEST_RATE}"),
+                    message: format!(
+                        "{key} is {values:?}: every value must be at least {SMALLEST_RATE} and at most {LARGEST_RATE}"
+                    ),
                 });
                 default
             }
@@ -254,6 +262,18 @@ impl Resolver<'_> {
                 default.junction_deviation
             }
         };
+        let largest_spindle_speed = machine.largest_spindle_speed;
+        if let Some(speed) = largest_spindle_speed
+            && !(SMALLEST_RATE..=LARGEST_RATE).contains(&speed)
+        {
+            let line = self.locator.line_in("machine", "largest-spindle-speed");
+            self.complain(
+                line,
+                format!(
+                    "largest-spindle-speed is {speed}: it must be at least {SMALLEST_RATE} and at most {LARGEST_RATE}"
+                ),
+            );
+        }
         Rig {
             dialect: self
                 .flags
@@ -267,7 +287,7 @@ impl Resolver<'_> {
             travel,
             safe_height,
             dwell,
-            largest_spindle_speed: machine.largest_spindle_speed,
+            largest_spindle_speed,
         }
     }
 
@@ -279,6 +299,16 @@ impl Resolver<'_> {
                     format!("{key} of a keepout is [{least}, {largest}]: the smaller comes first"),
                 );
             }
+        }
+        if let Some(top) = file.top
+            && !(top.is_finite() && top.abs() <= LARGEST_LENGTH)
+        {
+            self.at(
+                Place { table, key: "top" },
+                format!(
+                    "top of a keepout is {top}: it is a height in millimetres; leave it out for a keepout of any height"
+                ),
+            );
         }
         let corners = [Point::new(file.x[0], file.y[0]), Point::new(file.x[1], file.y[1])];
         Keepout { outline: Bounds::of_points(corners), top: file.top.unwrap_or(f64::INFINITY) }

@@ -43,6 +43,7 @@ dialect = "grbl"             # clopen lint --help lists them; a file of your own
 #dwell = 3                   # seconds for the spindle to start
 #arcs = true
 #inches = false
+#largest-spindle-speed = 24000   # faster ones are refused; $30 of the settings where it is not said
 
 [[tool]]
 number = 1
@@ -64,6 +65,11 @@ depth-per-pass = 1
 #angle = 60
 #diameter = 6
 
+#[[tool]]
+#number = 3
+#diameter = 1
+#depth-per-pass = 0.5
+
 # The shapes of the drawing, for select = {{ id = "...", layer = "...", fill = "red", stroke = "#00f", order = [1, 2] }}:
 {listed}
 [[operation]]
@@ -71,19 +77,24 @@ kind = "profile"             # profile, pocket, drill, engrave, v-carve, facing 
 name = "cut out"
 tool = 1                     # by number or name
 #select = {{ id = "plate" }}   # all shapes unless it is said
-through = true               # or depth = 3
+through = true               # 0.2 mm deeper than the stock is thick, so that nothing hangs on by a film; or depth = 3
 #side = "outside"            # outside of parts and inside of holes; inside; on
-#start-depth = 0
+#direction = "climb"         # the part on the right of a spindle that turns clockwise; or conventional
+#feed = 900                  # along the path, instead of the tool's
+#plunge-feed = 250           # in ramps and plunges, instead of the tool's
+#spindle-speed = 16000       # turns a minute, instead of the tool's
+#depth-per-pass = 0.8        # at most so much deeper from pass to pass, instead of the tool's
+#start-depth = 0             # below the top of the stock: what lies above is cut already
 #passes = "even"             # or stepped
 #final-pass = 0.3            # thickness of the last pass
 #path-radius = "auto"        # smallest radius of the path in inside corners
 #entry = "ramp"              # ramp, helix, plunge or predrilled
 #lead = 2                    # radius of the arcs on which the tool comes and goes
-#tabs = {{ count = 3, width = 6, height = 2 }}    # or spacing = 80, or at = [[10, 0], [50, 0]]
-#onion-skin = 0.2            # left at the floor until everything else is cut
+#tabs = {{ count = 3, width = 6, height = 2 }}    # or spacing = 80, or at = [[10, 0], [50, 0]]: x and y of the machine, from
+                             # zero of the stock, in mm; a tab stands where the outline is nearest to it
+#onion-skin = 0.2            # left at the floor until all outlines of this operation are cut, then cut at its end
 #allowance = 0.3             # left at the walls for a finishing pass
 #corners = "round"           # or dogbone, t-bone: square parts fit
-#rest-of = 2                 # only what that larger tool has left
 
 #[[operation]]
 #kind = "pocket"
@@ -91,6 +102,12 @@ through = true               # or depth = 3
 #depth = 2
 #stepover = "40%"            # of the tool's diameter, or a length
 #pattern = "rings"           # or raster
+
+#[[operation]]
+#kind = "pocket"
+#tool = 3
+#depth = 2
+#rest-of = 1                 # only what that larger tool has left, in an operation above, as deep
 
 #[[operation]]
 #kind = "drill"              # circles; wider ones than the tool are bored on a helix
@@ -101,7 +118,24 @@ through = true               # or depth = 3
 #[[operation]]
 #kind = "v-carve"
 #tool = 2
-#max-depth = 3
+#max-depth = 3               # wider places get a flat bottom there
+
+#[[operation]]
+#kind = "chamfer"            # breaks the edge of outlines; it goes as deep as its width asks for
+#tool = 2
+#width = 0.5                 # seen from above
+#side = "outside"
+
+#[[operation]]
+#kind = "engrave"            # along strokes, or the outlines of what is filled
+#tool = 2
+#depth = 0.3
+
+#[[operation]]
+#kind = "facing"             # the top of the stock, or of the shapes, made flat
+#tool = 1
+#depth = 0.5
+#stepover = "40%"
 
 #[[keepout]]                 # clamps: no tool goes here
 #x = [0, 20]
@@ -133,6 +167,6 @@ mod tests {
         let all: String = text.lines().map(|l| uncomment(l) + "\n").collect();
         let file: SetupFile = all.parse().unwrap_or_else(|e| panic!("{e}"));
         let setup = file.resolve(&JobFile::default(), &scale).unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!((setup.operations.len(), setup.tools.len(), setup.keepouts.len()), (4, 2, 1));
+        assert_eq!((setup.operations.len(), setup.tools.len(), setup.keepouts.len()), (8, 3, 1));
     }
 }

@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, anyhow, bail};
 
+use super::engaged::{laps, with_heights};
 use super::select::select;
 use super::setup_report::SetupReport;
-use super::{FormatArg, MillArgs, Verdict, keep_page, setup_page, target};
+use super::setup_saved::time_saved;
+use super::{FormatArg, MillArgs, Verdict, keep_page, setup_page, stock_edges, target};
 use crate::cam::{
-    self, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, PathRadius, Planned, Program, Remainder,
-    Setup, SetupFile, Side, Step, TimeSaved, check_operation, plan_operation, split_operations,
+    self, Entry, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder, Setup,
+    SetupFile, Side, Step, check_amount, check_operation, plan_operation, split_operations,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::cli::{ExitStatus, input, output};
@@ -60,10 +62,23 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
              the part is (--width 100mm)"
         );
     };
+    if let Some(note) = args.reading.scale_note(&shapes.page) {
+        output::say(&format!("clopen: {name}: {note}\n"));
+    }
     let mut file: SetupFile = text.parse().with_context(|| job.display().to_string())?;
-    read_machine_settings(&mut file, job)?;
-    let setup = file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string())?;
-    let dialect = input::dialect_beside(&setup.rig.dialect, job)?;
+    let settings = read_machine_settings(&mut file, job)?;
+    let mut setup = file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string())?;
+    let (dialect, dialect_file) = input::dialect_beside(&setup.rig.dialect, job)?;
+    // All that is read: nothing of it may be written over.
+    let inputs: Vec<&Path> = [Some(args.input.as_path()), Some(job), settings.as_deref(), dialect_file.as_deref()]
+        .into_iter()
+        .flatten()
+        .collect();
+    keep_inputs(&inputs, [target.as_path()].into_iter().chain(args.html.as_deref()))?;
+    if !dialect.has_depth() {
+        // Nothing goes down: on a ramp the beam would go around several times in one pass.
+        setup.operations.iter_mut().for_each(|o| o.cutting.entry = Entry::Plunge);
+    }
     let shift = shift(setup.stock.zero, &shapes, mm_per_unit);
     let options = WriteOptions {
         units: if setup.rig.inches { Units::Inches } else { Units::Millimetres },
@@ -77,15 +92,17 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     let mut holes: Vec<Hole> = Vec::new();
     for operation in &setup.operations {
         let geometry = drawn(operation, &holes).with_context(|| place(operation))?;
+        check_amount(&setup, operation, &geometry).with_context(|| place(operation))?;
         let plan = plan_operation(&setup, operation, &geometry).with_context(|| place(operation))?;
         holes.extend(&plan.holes);
         planned.push(plan);
     }
     let steps = steps(&setup, &planned);
     let written = write(args, &setup, &dialect, options, &steps, &target)?;
-    let done = hold_against(&setup, planned, &written)?;
+    let done = hold_against(&setup, &dialect, planned, &written)?;
     let mut unsafe_travel = beyond_travel(&setup, &written);
     unsafe_travel.extend(collisions(&setup, &written));
+    let beyond_stock = stock_edges::beyond(&setup, file.stock.zero.unwrap_or(cam::DEFAULT_ORIGIN), &done);
     let saved = time_saved(&setup, &dialect, options, &done, &written, &drawn);
 
     let mut contents: Vec<(PathBuf, Vec<u8>)> =
@@ -102,7 +119,6 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         let png = draw(&setup, program)?;
         if has_files {
             let path = program.path.with_extension("png");
-            output::keep_input(&args.input, &path)?;
             contents.push((path, png.clone()));
         }
         *picture = Some(png);
@@ -117,12 +133,14 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         accept_losses: args.accept_losses,
         written: &written,
         unsafe_travel: &unsafe_travel,
+        beyond_stock: &beyond_stock,
         saved: saved.as_ref(),
         files: &files,
     };
     if let Some(html) = &args.html {
         contents.push((html.clone(), setup_page::page(&report, pictures).into_bytes()));
     }
+    keep_inputs(&inputs, contents.iter().map(|(path, _)| path.as_path()))?;
     output::write_together(&contents.iter().map(|(p, b)| (p.as_path(), b.as_slice())).collect::<Vec<_>>())?;
     let text = match args.format {
         FormatArg::Text => report.text(),
@@ -139,9 +157,14 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     })
 }
 
-/// What GRBL answered to `$$`, where the job file names a file with it.
-fn read_machine_settings(file: &mut SetupFile, job: &Path) -> Result<()> {
-    let Some(name) = &file.machine.settings else { return Ok(()) };
+/// Refuses results in place of what is read.
+fn keep_inputs<'a>(inputs: &[&Path], mut results: impl Iterator<Item = &'a Path>) -> Result<()> {
+    results.try_for_each(|result| inputs.iter().try_for_each(|input| output::keep_input(input, result)))
+}
+
+/// What GRBL answered to `$$`, where the job file names a file with it; and that file.
+fn read_machine_settings(file: &mut SetupFile, job: &Path) -> Result<Option<PathBuf>> {
+    let Some(name) = &file.machine.settings else { return Ok(None) };
     let path = job.parent().unwrap_or(Path::new("")).join(name);
     let text = input::read_text(&path)?;
     let settings = gcode::grbl_settings::read(&text).with_context(|| path.display().to_string())?;
@@ -149,8 +172,8 @@ fn read_machine_settings(file: &mut SetupFile, job: &Path) -> Result<()> {
         [Some(x), Some(y), Some(z)] => Some([x, y, z]),
         _ => None,
     };
-    file.machine.take(&settings.machine(&cam::Machine::default()), travel);
-    Ok(())
+    file.machine.take(&settings.machine(&cam::Machine::default()), travel, settings.spindle_max);
+    Ok(Some(path))
 }
 
 /// What brings the origin to where the job wants it, in millimetres.
@@ -196,50 +219,13 @@ fn parts(setup: &Setup, shapes: &Shapes, scale: f64, shift: Vector) -> Vec<Regio
 }
 
 /// What is done one after the other.
-fn steps(setup: &Setup, planned: &[Planned]) -> Vec<Step> {
+pub(super) fn steps(setup: &Setup, planned: &[Planned]) -> Vec<Step> {
     let step = |(o, p): (&Operation, &Planned)| Step {
         label: o.label.clone(),
         tool: setup.tool_of(o).clone(),
         toolpath: p.toolpath.clone(),
     };
     setup.operations.iter().zip(planned).map(step).collect()
-}
-
-/// What the path radii save: every operation that can be planned with sharp inside corners planned and written so, the others as
-/// they are. `None` where nothing is rounded.
-fn time_saved(
-    setup: &Setup,
-    dialect: &Dialect,
-    options: WriteOptions,
-    done: &[Done],
-    written: &[Written],
-    drawn: &impl Fn(&Operation, &[Hole]) -> Result<Geometry>,
-) -> Option<TimeSaved> {
-    let mut sharp = setup.clone();
-    for operation in &mut sharp.operations {
-        operation.cutting.path_radius = PathRadius::Length(0.0);
-    }
-    if sharp.operations == setup.operations {
-        return None;
-    }
-    let mut holes: Vec<Hole> = Vec::new();
-    let mut same_outlines = true;
-    let mut planned = Vec::new();
-    for (operation, done) in sharp.operations.iter().zip(done) {
-        let geometry = drawn(operation, &holes).ok()?;
-        let plan = plan_operation(&sharp, operation, &geometry).unwrap_or_else(|_| done.planned.clone());
-        let is_profile = matches!(operation.kind, OperationKind::Profile { rest_of: None, .. });
-        same_outlines &= !is_profile || plan.toolpath.contour_count == done.planned.toolpath.contour_count;
-        holes.extend(&plan.holes);
-        planned.push(plan);
-    }
-    let files = gcode::write_files(&steps(&sharp, &planned), &[], dialect, options).ok()?;
-    let mut saved = TimeSaved { same_outlines, ..TimeSaved::default() };
-    for (file, written) in files.iter().zip(written) {
-        let program = gcode::read_as(&file.text, dialect).ok()?;
-        saved = saved.and(&TimeSaved::between(&written.program, &program, &setup.rig.limits, setup.stock.top));
-    }
-    Some(saved)
 }
 
 /// The texts, and what they say when they are read back.
@@ -266,6 +252,8 @@ fn write(
         let findings = gcode::lint(&file.text, &LintOptions { dialect, stock_top: setup.stock.top });
         let program =
             gcode::read_as(&file.text, dialect).context("the program cannot be read back; please report this")?;
+        let deepest = setup.operations.iter().map(|o| o.cutting.depth).fold(0.0, f64::max);
+        let program = with_heights(program, dialect, setup.rig.safe_height, setup.stock.top - deepest);
         written.push(Written { index, path, text: file.text, program, findings });
     }
     Ok(written)
@@ -275,7 +263,7 @@ fn write(
 fn header(args: &MillArgs, setup: &Setup, dialect: &Dialect) -> Vec<String> {
     let mut lines = vec![
         format!("clopen {}", env!("CARGO_PKG_VERSION")),
-        format!("drawing {}", args.input.file_name().map_or("-".into(), |n| n.to_string_lossy().into_owned())),
+        format!("drawing {}", drawing_name(args)),
         format!("{DIALECT_COMMENT}{}", dialect.name),
     ];
     if let Some(thickness) = setup.stock.thickness {
@@ -284,8 +272,23 @@ fn header(args: &MillArgs, setup: &Setup, dialect: &Dialect) -> Vec<String> {
     lines
 }
 
+/// The longest name of a drawing in a program, in characters: it stays on its line, and no part of it is taken for a comment of
+/// another meaning.
+const LONGEST_DRAWING_NAME: usize = 40;
+
+/// The name of the drawing as a program tells it.
+fn drawing_name(args: &MillArgs) -> String {
+    let name = args.input.file_name().map_or("-".into(), |n| n.to_string_lossy().into_owned());
+    name.chars().take(LONGEST_DRAWING_NAME).collect()
+}
+
 /// Every operation against the part of the programs that is its own.
-fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]) -> Result<Vec<Done<'a>>> {
+fn hold_against<'a>(
+    setup: &'a Setup,
+    dialect: &Dialect,
+    planned: Vec<Planned>,
+    written: &[Written],
+) -> Result<Vec<Done<'a>>> {
     let runs: Vec<(usize, Program)> =
         written.iter().flat_map(|w| split_operations(&w.program).into_iter().map(|run| (w.index, run))).collect();
     if runs.len() != planned.len() {
@@ -299,7 +302,13 @@ fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]
     Ok(all
         .map(|((operation, planned), (program, run))| {
             let tool = setup.tool_of(operation);
-            let check = check_operation(&run, operation, &planned, tool, &setup.stock, &setup.rig.limits);
+            let (top, up) = (setup.stock.top, setup.rig.safe_height);
+            let run = with_heights(run, dialect, up, top - operation.cutting.depth);
+            let mut check = check_operation(&run, operation, &planned, tool, &setup.stock, &setup.rig.limits);
+            if !dialect.has_depth() && check.passes[0] > 0 {
+                // All passes are at one height: what counts is how often it goes around.
+                check.passes[1] = laps(&run, top).min(check.passes[0]);
+            }
             let acceleration = setup.rig.limits.acceleration;
             let path_radius = operation.cutting.path_radius_mm(acceleration[0].min(acceleration[1]));
             let lost = lost(operation, &planned, tool.radius() + path_radius);
@@ -311,8 +320,8 @@ fn hold_against<'a>(setup: &'a Setup, planned: Vec<Planned>, written: &[Written]
 /// What the tool cannot make of the shapes, corners aside.
 fn lost(operation: &Operation, planned: &Planned, radius: f64) -> Vec<LostFeature> {
     let is_whole = match operation.kind {
-        OperationKind::Profile { side, rest_of: None, .. } => side != Side::On,
-        OperationKind::Pocket { rest_of: None, .. } => true,
+        OperationKind::Profile { side, .. } => side != Side::On,
+        OperationKind::Pocket { .. } => true,
         _ => false,
     };
     let (Some(keep), Ok(radius)) = (planned.keep.as_ref().filter(|_| is_whole), Radius::new(radius)) else {

@@ -3,8 +3,8 @@
 use super::differences::{Cut, merged};
 use super::page::{file_name, finding};
 use super::setup::{Done, Written};
-use super::setup_report::{SetupReport, loose_part};
-use crate::cam::{OperationKind, Remainder, Setup, uncut};
+use super::setup_report::{SetupReport, corners_left, loose_part};
+use crate::cam::{OperationKind, Remainder, Setup};
 use crate::cli::report::{GOUGE_LIMIT, Verdict};
 use crate::plane::{Region, Ring};
 use crate::preview::{Difference, Outline, Page, PageOperation, PageProgram, PageTool};
@@ -21,7 +21,7 @@ pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> Stri
         ("acceleration", setup.rig.limits.acceleration.map(|a| a.to_string()).join(", ") + " mm/s²"),
     ];
     let findings = report.written.iter().flat_map(|w| w.findings.iter().map(|f| finding(&file_name(&w.path), f)));
-    let mut warnings = setup.cutting_warnings();
+    let mut warnings = report.warnings();
     let loose = |d: &Done| loose_part(d, setup).map(|words| format!("{}: {words}", d.check.label));
     warnings.extend(report.done.iter().filter_map(loose));
     let programs = report.written.iter().zip(pictures).map(|(w, picture)| PageProgram {
@@ -60,7 +60,7 @@ fn operation(report: &SetupReport, done: &Done) -> PageOperation {
     PageOperation {
         label: check.label.clone(),
         tool: format!("{}: {}", check.tool, report.setup.tool_of(done.operation).name),
-        passes: statistics.passes,
+        passes: check.passes[1],
         cut_length: statistics.cut_length_mm,
         depth: statistics.depth_mm,
         seconds: check.seconds,
@@ -100,13 +100,7 @@ fn outlines(done: &[Done]) -> Vec<Outline> {
 fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
     let (operation, check) = (done.operation, &done.check);
     let tool = setup.tool_of(operation);
-    let later = setup.operations.iter().find(|o| {
-        let rest = match o.kind {
-            OperationKind::Profile { rest_of, .. } | OperationKind::Pocket { rest_of, .. } => rest_of,
-            _ => None,
-        };
-        o.line > operation.line && o.select == operation.select && rest == Some(tool.diameter)
-    });
+    let later = setup.rest_of(operation);
     let cut = Cut {
         operation: check.label.clone(),
         diameter: tool.diameter,
@@ -118,13 +112,10 @@ fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
     rows.extend(cut.lost(&done.lost));
     let is_held = !done.planned.tabs.is_empty() || operation.cutting.onion_skin.is_some();
     // Tabs stand where the tool goes around: they are no corners that it does not reach.
-    let left = match (&operation.kind, &done.planned.keep) {
-        (OperationKind::Profile { .. }, _) if is_held => None,
-        (OperationKind::Profile { .. }, _) => check.uncut.clone(),
-        (OperationKind::Pocket { rest_of: None, .. }, Some(k)) => {
-            Some(uncut(&done.run, &k.part, k.remainder, k.distance, k.floor))
-        }
-        _ => None,
+    let left = match &operation.kind {
+        OperationKind::Profile { .. } if is_held => None,
+        OperationKind::Profile { .. } => check.uncut.clone(),
+        _ => corners_left(done),
     };
     rows.extend(left.iter().flat_map(|u| cut.uncut(u, &done.lost)));
     rows.extend(cut.islands(&check.islands));

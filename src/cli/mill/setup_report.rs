@@ -7,7 +7,7 @@ use anyhow::Result;
 use serde_json::json;
 
 use super::setup::{Done, Written, at};
-use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, estimate};
+use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, Uncut, estimate, uncut};
 use crate::cli::report::{GOUGE_LIMIT, Verdict, describe};
 use crate::cli::time_words::{minutes, sharp, time_saved};
 use crate::gcode::Severity;
@@ -22,6 +22,8 @@ pub(super) struct SetupReport<'a> {
     pub(super) accept_losses: bool,
     pub(super) written: &'a [Written],
     pub(super) unsafe_travel: &'a [String],
+    /// What lies beyond the edges of the stock.
+    pub(super) beyond_stock: &'a [String],
     /// Against paths with sharp inside corners; `None` where nothing is rounded, or they cannot be planned.
     pub(super) saved: Option<&'a TimeSaved>,
     pub(super) files: &'a [PathBuf],
@@ -60,6 +62,13 @@ impl SetupReport<'_> {
         words(done, self.setup, self.accept_losses).failures.is_empty()
     }
 
+    /// What is unusual about the job, in sentences.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let mut warnings = self.setup.cutting_warnings();
+        warnings.extend(self.beyond_stock.iter().cloned());
+        warnings
+    }
+
     /// Seconds that all programs take.
     pub(super) fn seconds(&self) -> f64 {
         self.written.iter().map(|w| estimate(&w.program, &self.setup.rig.limits).total_seconds()).sum()
@@ -79,14 +88,16 @@ impl SetupReport<'_> {
             let verdict =
                 if words(done, self.setup, self.accept_losses).failures.is_empty() { "good" } else { "FAILED" };
             let label: String = check.label.chars().take(23).collect();
+            // Of holes and of what is as deep as it is wide no passes are asked for.
+            let passes = match check.passes {
+                [0, _] => "-".to_owned(),
+                [asked, found] if asked == found => found.to_string(),
+                [asked, found] => format!("{found}/{asked}"),
+            };
             let _ = writeln!(
                 text,
-                "{label:<24}{:>5}{:>7}{:>10.1}{:>9.3}{:>8.1}{gouge:>11}{verdict:>9}",
-                check.tool,
-                check.statistics.passes,
-                check.statistics.cut_length_mm,
-                check.statistics.depth_mm,
-                check.seconds
+                "{label:<24}{:>5}{passes:>7}{:>10.1}{:>9.3}{:>8.1}{gouge:>11}{verdict:>9}",
+                check.tool, check.statistics.cut_length_mm, check.statistics.depth_mm, check.seconds
             );
         }
         let _ = writeln!(text, "{:<24}{}", "time", minutes(self.seconds()));
@@ -102,7 +113,7 @@ impl SetupReport<'_> {
                 let _ = writeln!(text, "note    {}: {note}", done.check.label);
             }
         }
-        for warning in self.setup.cutting_warnings() {
+        for warning in self.warnings() {
             let _ = writeln!(text, "note    {warning}");
         }
         for travel in self.unsafe_travel {
@@ -150,7 +161,7 @@ impl SetupReport<'_> {
             "operations": operations,
             "programs": programs,
             "sharp": self.saved.map(sharp),
-            "warnings": self.setup.cutting_warnings(),
+            "warnings": self.warnings(),
             "beyond_travel": self.unsafe_travel,
             "gouge_limit_mm": GOUGE_LIMIT,
             "good": self.verdict() == Verdict::Good,
@@ -175,9 +186,15 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
     if check.passes[0] > check.passes[1] {
         failures.push(format!("{} passes were asked for, and the program has {}", check.passes[0], check.passes[1]));
     }
+    let later = setup.rest_of(done.operation);
     for feature in &done.lost {
         let words = describe(feature, setup.tool_of(done.operation).diameter, done.path_radius);
-        if accept_losses { &mut notes } else { &mut failures }.push(words);
+        match later {
+            // The smaller tool is held against the same shapes.
+            Some(later) => notes.push(format!("{words}; that is left to \"{}\"", later.label)),
+            None if accept_losses => notes.push(words),
+            None => failures.push(words),
+        }
     }
     for island in &check.islands {
         failures
@@ -202,6 +219,19 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
                 place.y_mm
             ));
         }
+    }
+    if let Some(left) = corners_left(done).filter(|_| later.is_none())
+        && let Some(place) = left.places.first()
+    {
+        notes.push(format!(
+            "the tool leaves {:.2} mm² standing in the corners of the pocket in {} places, the largest {:.3} mm thick at ({:.3}, \
+             {:.3}): a smaller tool, rest-of, or corners = \"dogbone\" take it",
+            left.area_mm2,
+            left.places.len(),
+            place.depth_mm,
+            place.x_mm,
+            place.y_mm
+        ));
     }
     for notice in &planned.notices {
         match *notice {
@@ -238,6 +268,13 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
     }
     notes.extend(loose_part(done, setup));
     Words { failures, notes }
+}
+
+/// What a pocket leaves standing in its corners, where no operation before it has cut.
+pub(super) fn corners_left(done: &Done) -> Option<Uncut> {
+    let keep = done.planned.keep.as_ref()?;
+    matches!(done.operation.kind, OperationKind::Pocket { rest_of: None, .. })
+        .then(|| uncut(&done.run, &keep.part, keep.remainder, keep.distance, keep.floor))
 }
 
 /// Whether a part is loose while it is finished, in words.

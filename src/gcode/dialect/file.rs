@@ -16,7 +16,7 @@ const MOST_DWELL_DECIMALS: u8 = 3;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DialectError {
     /// The text is no TOML, or a key is missing, unknown or of the wrong type.
-    #[error("{0}")]
+    #[error(transparent)]
     Toml(#[from] toml::de::Error),
     /// The key `base` names no built-in dialect.
     #[error("base: \"{name}\" is no built-in dialect{}: there are {known}", .meant.map_or(String::new(), |m| format!(" (do you mean {m}?)")))]

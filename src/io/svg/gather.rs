@@ -23,7 +23,8 @@ pub(super) struct Gathered<'g, 'a, 'input> {
     pub collection: Collection,
     /// From the coordinates below the root to the drawing's.
     pub outer: Affine,
-    page: Page,
+    /// What the root element says of place and size.
+    pub page: Page,
     options: &'g ReadOptions,
     tolerance: f64,
     known: Option<Known<'g>>,

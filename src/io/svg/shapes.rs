@@ -9,6 +9,7 @@ use super::drawing::Drawing;
 use super::error::{Place, ReadError, Warning};
 use super::gather::{Gathered, gather};
 use super::options::{ReadOptions, Strokes};
+use super::viewport::Page;
 use crate::io::unite::{self, Rule};
 use crate::plane::{Bounds, Region, Ring};
 use crate::units::DrawingScale;
@@ -68,6 +69,8 @@ pub struct Shapes {
     pub shapes: Vec<DrawnShape>,
     /// Millimetres in a user unit, where the file or the options say.
     pub mm_per_unit: Option<f64>,
+    /// What the root element says of place and size.
+    pub page: Page,
     /// What was left out.
     pub warnings: Vec<Warning>,
 }
@@ -117,7 +120,7 @@ pub fn read_shapes(bytes: &[u8], options: &ReadOptions) -> Result<Shapes, ReadEr
         for element in 0..gathered.collection.instances.len() as u32 {
             shapes.extend(shape(&gathered, element));
         }
-        let mut drawn = Shapes { shapes, mm_per_unit: None, warnings: Vec::new() };
+        let mut drawn = Shapes { shapes, mm_per_unit: None, page: gathered.page.clone(), warnings: Vec::new() };
         if drawn.shapes.is_empty() {
             return Err(gathered.nothing_filled());
         }

@@ -70,6 +70,14 @@ impl Page {
         self.view_box.is_some() && self.view_box().is_none()
     }
 
+    /// Whether its physical size rests on numbers without a unit, which the format takes for 1/96 of an inch.
+    pub fn has_size_without_unit(&self) -> bool {
+        let texts = [self.width.as_deref(), self.height.as_deref()];
+        let mut sizes = texts.into_iter().flatten().filter(|text| physical(Some(text)).is_some()).peekable();
+        sizes.peek().is_some()
+            && sizes.all(|t| svgtypes::Length::from_str(t.trim()).is_ok_and(|l| l.unit == LengthUnit::None))
+    }
+
     pub(super) fn aspect(&self) -> AspectRatio {
         self.preserve_aspect_ratio.as_deref().and_then(|t| AspectRatio::from_str(t).ok()).unwrap_or_default()
     }
@@ -118,6 +126,15 @@ mod tests {
         let text = |t: &str| (!t.is_empty()).then(|| t.to_owned());
         Page { width: text(width), height: text(height), view_box: text(view_box), preserve_aspect_ratio: text(aspect) }
             .unit_size()
+    }
+
+    #[test]
+    fn numbers_without_a_unit_are_known() {
+        let page = |width: &str| Page { width: Some(width.to_owned()), ..Page::default() };
+        for (width, expected) in [("100", true), ("100mm", false), ("100px", false), ("100%", false), ("x", false)] {
+            assert_eq!(page(width).has_size_without_unit(), expected, "{width}");
+        }
+        assert!(!Page::default().has_size_without_unit());
     }
 
     #[test]

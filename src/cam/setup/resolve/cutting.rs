@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{LARGEST_LENGTH, Place, Resolver};
 use crate::cam::job_file::TypedPathRadius;
 use crate::cam::setup::file::{OperationFile, OperationKindName, RatesFile, TabsFile, ToolFile};
-use crate::cam::setup::{Cutting, Steps, TabPlaces, Tabs, Workpiece};
+use crate::cam::setup::{Cutting, MOST_TABS, Steps, TabPlaces, Tabs, Workpiece};
 use crate::cam::{
     DEFAULT_DEPTH_PER_PASS, DEFAULT_DIRECTION, DEFAULT_ENTRY, DEFAULT_FEED, DEFAULT_PATH_RADIUS, DEFAULT_PLUNGE_FEED,
     DEFAULT_SPINDLE_SPEED, PathRadius, Tool,
@@ -23,8 +23,9 @@ const DEFAULT_TAB_HEIGHT: f64 = 0.4;
 /// How much deeper than the stock is thick a cut through it goes, in millimetres, so that nothing hangs on by a film.
 const THROUGH: f64 = 0.2;
 
-/// How much deeper than its stock an operation may go: into the board below.
-const DEEPEST_BELOW: f64 = 5.0;
+/// How much deeper than the stock is thick an operation may go, in millimetres: into the board below, which lies on the table
+/// of the machine. The point of a drill is not counted.
+const DEEPEST_BELOW: f64 = 2.0;
 
 impl Resolver<'_> {
     pub(super) fn cutting(
@@ -42,10 +43,18 @@ impl Resolver<'_> {
         if depth <= start_depth && kind != OperationKindName::Chamfer {
             self.at(place("depth"), format!("depth is {depth} mm, not below the start-depth of {start_depth} mm"));
         }
+        let point = if tool.is_drill { tool.height_at(tool.radius()).unwrap_or(0.0) } else { 0.0 };
         if let Some(thickness) = stock.thickness
-            && depth > thickness + DEEPEST_BELOW
+            && depth > thickness + DEEPEST_BELOW + point
+            && !matches!(kind, OperationKindName::VCarve | OperationKindName::Chamfer)
         {
-            self.at(place("depth"), format!("depth is {depth} mm, far below the stock, which is {thickness} mm thick"));
+            self.at(
+                place("depth"),
+                format!(
+                    "depth is {depth} mm, and the stock is {thickness} mm thick: at most {DEEPEST_BELOW} mm deeper spares what \
+                     lies below; through = true goes {THROUGH} mm deeper"
+                ),
+            );
         }
         let typed = self.flags.depth_per_pass.or(file.depth_per_pass).or(rates.depth_per_pass);
         let depth_per_pass =
@@ -65,6 +74,16 @@ impl Resolver<'_> {
                 format!("depth {depth} mm at {depth_per_pass} mm a pass takes more than {MOST_PASSES} passes"),
             );
         }
+        let final_pass = self.above_zero(place("final-pass"), file.final_pass);
+        if final_pass.is_some_and(|last| last >= depth - start_depth) {
+            self.at(
+                place("final-pass"),
+                format!(
+                    "the final pass is as thick as the cut is deep, {} mm: nothing is left before it",
+                    depth - start_depth
+                ),
+            );
+        }
         let steps = [("even", Steps::Even), ("stepped", Steps::Stepped)];
         let feed = self.flags.feed.or(file.feed).or(rates.feed).unwrap_or_else(|| speed(DEFAULT_FEED));
         let plunge_feed = self
@@ -73,6 +92,9 @@ impl Resolver<'_> {
             .or(file.plunge_feed)
             .or(rates.plunge_feed)
             .unwrap_or_else(|| speed(DEFAULT_PLUNGE_FEED));
+        for (key, feed) in [("feed", feed), ("plunge-feed", plunge_feed)] {
+            self.rate(place(key), Some(feed.mm_per_min()));
+        }
         let spindle = self.flags.spindle_speed.or(file.spindle_speed).or(rates.spindle_speed);
         let spindle_speed = self.rate(place("spindle-speed"), spindle).unwrap_or(DEFAULT_SPINDLE_SPEED);
         let path_radius = match self.flags.path_radius.or(file.path_radius) {
@@ -93,7 +115,7 @@ impl Resolver<'_> {
             depth,
             depth_per_pass,
             steps: self.word(place("passes"), file.passes.as_deref(), &steps, Steps::Even),
-            final_pass: self.above_zero(place("final-pass"), file.final_pass),
+            final_pass,
             feed,
             plunge_feed,
             spindle_speed,
@@ -146,11 +168,40 @@ impl Resolver<'_> {
                 self.at(place("count"), "count of tabs is 0: leave them out, or ask for some");
                 return None;
             }
+            (Some(count), _) if count > MOST_TABS => {
+                self.at(place("count"), format!("{count} tabs on every outline: at most {MOST_TABS} make sense"));
+                return None;
+            }
             (Some(count), _) => TabPlaces::Count(count),
-            (None, Some(at)) => TabPlaces::At(at.clone()),
+            (None, Some(at)) if at.is_empty() || at.len() > MOST_TABS => {
+                self.at(
+                    place("at"),
+                    format!("there are {} places of tabs: name one at least, and at most {MOST_TABS}", at.len()),
+                );
+                return None;
+            }
+            (None, Some(at)) => {
+                if let Some([x, y]) = at.iter().find(|p| !p.iter().all(|c| c.abs() <= LARGEST_LENGTH)) {
+                    self.at(place("at"), format!("[{x}, {y}] is no place of a machine: x and y in millimetres"));
+                }
+                TabPlaces::At(at.clone())
+            }
             (None, None) => TabPlaces::Spacing(self.above_zero(place("spacing"), file.spacing)?),
         };
         let width = self.above_zero(place("width"), file.width).unwrap_or(DEFAULT_TAB_WIDTH * tool.diameter);
+        // The tool stands over a tab before its middle is on it, and after.
+        let reach = width + tool.diameter;
+        if let TabPlaces::Spacing(spacing) = places
+            && spacing <= reach
+        {
+            self.at(
+                place("spacing"),
+                format!(
+                    "tabs of {width} mm every {spacing} mm run into each other: with a tool of {} mm they need more than {reach} mm",
+                    tool.diameter
+                ),
+            );
+        }
         let height = self.above_zero(place("height"), file.height).unwrap_or(DEFAULT_TAB_HEIGHT * depth);
         if height > depth {
             self.at(place("height"), format!("tabs of {height} mm are higher than the cut is deep, {depth} mm"));

@@ -7,6 +7,15 @@ use crate::cam::setup::file::{ToolFile, ToolName};
 use crate::cam::{Tool, ToolShape};
 use crate::units::nearest;
 
+/// Smallest diameter of a tool in millimetres: the thinnest drills that are made.
+const SMALLEST_DIAMETER: f64 = 0.01;
+
+/// Most cutting edges of a tool: saws have a hundred teeth.
+const MOST_FLUTES: u32 = 500;
+
+/// Cutting edges of a tool of which it is not said: what most routers' bits have.
+const USUAL_FLUTES: u32 = 2;
+
 /// Angle of a drill's tip in degrees.
 const DRILL_ANGLE: f64 = 118.0;
 
@@ -24,6 +33,12 @@ impl Resolver<'_> {
             self.at(place("diameter"), format!("tool {number} needs a diameter"));
         }
         let diameter = diameter.unwrap_or(1.0);
+        if diameter < SMALLEST_DIAMETER {
+            self.at(
+                place("diameter"),
+                format!("diameter is {diameter} mm: at least {SMALLEST_DIAMETER} mm makes sense; is the unit right?"),
+            );
+        }
         let tip = self.zero_or_more(place("tip-diameter"), file.tip_diameter).unwrap_or(0.0);
         if tip >= diameter {
             self.at(place("tip-diameter"), "the tip must be narrower than the tool");
@@ -34,6 +49,23 @@ impl Resolver<'_> {
         }
         if !(angle > 0.0 && angle < 180.0) {
             self.at(place("angle"), format!("angle is {angle}: it must lie between 0 and 180 degrees"));
+        }
+        if kind < 2 {
+            for (key, is_said) in [("angle", file.angle.is_some()), ("tip-diameter", file.tip_diameter.is_some())] {
+                if is_said {
+                    self.at(
+                        place(key),
+                        format!("{key} is that of a cone: it belongs to tools of type \"v\" or \"drill\""),
+                    );
+                }
+            }
+        }
+        let flutes = file.flutes.unwrap_or(USUAL_FLUTES);
+        if !(1..=MOST_FLUTES).contains(&flutes) {
+            self.at(
+                place("flutes"),
+                format!("flutes is {flutes}: a tool has 1 cutting edge at least, and at most {MOST_FLUTES}"),
+            );
         }
         let flute_length = self.above_zero(place("flute-length"), file.flute_length).unwrap_or(f64::INFINITY);
         let cone = ToolShape::Cone { angle: angle.clamp(1e-3, 179.999).to_radians(), tip_diameter: tip };
@@ -47,7 +79,7 @@ impl Resolver<'_> {
             },
             is_drill: kind == 3,
             diameter,
-            flutes: file.flutes.unwrap_or(2).max(1),
+            flutes,
             flute_length,
         }
     }

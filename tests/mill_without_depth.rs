@@ -1,0 +1,65 @@
+//! Beams and pens: the certificate knows when they work, though their programs have no depth.
+
+use std::fs;
+use std::process::Output;
+
+use assert_cmd::Command;
+
+const DRAWING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60mm\" height=\"60mm\" viewBox=\"0 0 60 60\">\
+                       <rect id=\"a\" x=\"10\" y=\"10\" width=\"40\" height=\"30\"/></svg>";
+
+fn mill(job: Option<&str>, more: &[&str]) -> (String, String, Option<i32>) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.svg"), DRAWING).unwrap();
+    let mut arguments = vec!["mill", "a.svg", "-o", "x.nc", "--no-preview"];
+    if let Some(job) = job {
+        fs::write(folder.path().join("job.toml"), job).unwrap();
+        arguments.extend(["--job", "job.toml"]);
+    }
+    arguments.extend(more);
+    let run = Command::cargo_bin("clopen").unwrap().current_dir(folder.path()).args(arguments).output();
+    let Output { status, stdout, stderr } = run.unwrap();
+    let said = String::from_utf8_lossy(&stdout).into_owned() + &String::from_utf8_lossy(&stderr);
+    (said, fs::read_to_string(folder.path().join("x.nc")).unwrap_or_default(), status.code())
+}
+
+fn job(dialect: &str, operation: &str) -> String {
+    format!(
+        "version = 1\n[stock]\nthickness = 3\n[machine]\ndialect = \"{dialect}\"\n[[tool]]\nnumber = 1\ndiameter = 0.2\n\
+         spindle-speed = 800\ndepth-per-pass = 1\n[[operation]]\n{operation}\ntool = 1\n"
+    )
+}
+
+#[test]
+fn a_beam_that_goes_around_once_a_pass_cuts_free() {
+    let (text, program, code) = mill(Some(&job("grbl-laser", "kind = \"profile\"\nthrough = true")), &[]);
+    assert_eq!(code, Some(0), "{text}");
+    // 3.2 mm in passes of 1 mm at most: four laps of 40 x 30 and the beam beside them.
+    let row: Vec<&str> = text.lines().find(|l| l.starts_with("profile 1")).unwrap().split_whitespace().collect();
+    assert_eq!(row[3], "4", "{text}");
+    let length: f64 = row[4].parse().unwrap();
+    assert!((length - 4.0 * 140.6).abs() < 4.0, "{text}");
+    assert!(program.contains("M4 S800") && !program.contains('Z'), "{program}");
+    let (text, _, code) =
+        mill(None, &["--dialect", "grbl-laser", "--tool-diameter", "0.2mm", "--spindle-speed", "800"]);
+    assert_eq!(code, Some(0), "{text}");
+}
+
+#[test]
+fn a_pen_draws_what_it_was_asked_to() {
+    for dialect in ["plotter", "plotter-servo"] {
+        let (text, _, code) = mill(Some(&job(dialect, "kind = \"engrave\"\ndepth = 0.5")), &[]);
+        assert_eq!(code, Some(0), "{dialect}: {text}");
+        let row: Vec<&str> = text.lines().find(|l| l.starts_with("engrave 1")).unwrap().split_whitespace().collect();
+        let length: f64 = row[4].parse().unwrap();
+        assert!((length - 140.0).abs() < 1.0, "{dialect}: {text}");
+    }
+}
+
+#[test]
+fn tabs_that_a_beam_would_cut_are_told() {
+    let operation = "kind = \"profile\"\nthrough = true\ntabs = { count = 2 }";
+    let (text, _, code) = mill(Some(&job("grbl-laser", operation)), &[]);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("2 tabs were asked for"), "{text}");
+}
