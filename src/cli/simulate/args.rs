@@ -102,7 +102,7 @@ pub(super) struct AgainstArgs {
     /// What of the drawing is x = 0, y = 0: corner or center of the part, or the drawing's own origin
     #[arg(long, value_name = "PLACE", default_value = "corner", requires = "against")]
     pub(super) origin: Origin,
-    /// z that the cut must reach [default: the deepest cut]
+    /// z that the cut must reach [default: the deepest cut sideways, or the lower face of --stock]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "against")]
     pub(super) floor: Option<Length>,
 }
