@@ -142,7 +142,7 @@ fn a_part_that_is_not_finished_fails() {
         ),
         (format!("{first}{second}"), "the outline around (20.000, 20.000), 12.6 mm long, is cut nowhere"),
         (format!("{HOLE}{first}{}", around(60.0, -1.0)), "the outline around (80.000, 20.000)"),
-        (format!("{HOLE}{first}{}", second.split("G1 X58.5").next().unwrap()), "of an outline, at (60.000,"),
+        (format!("{HOLE}{first}{}", second.split("G1 X58.5").next().unwrap()), "of an outline, at (71."),
     ] {
         let (status, text) = run(&program);
         assert_eq!(status, Some(1), "{program}:\n{text}");

@@ -2,12 +2,12 @@
 //!
 //! Stages: places are taken along every outline; a place is cut where a tool passes at the floor no farther than its radius,
 //! or over a tab between two cuts at the floor. What is not cut between two places that are is the corner that a round tool
-//! leaves, where it is no deeper than that of the two directions in which the tool touches; else it is left over. An
+//! leaves, where it is no deeper than that between the two directions of the outline there; else it is left over. An
 //! outline without any such place was never cut.
 
 use super::motion::{Motion, MotionKind};
 use super::removal::{FLOOR_ROUNDING, paths_at_floor};
-use crate::plane::{BoundaryIndex, Point, Ring, Segment};
+use crate::plane::{BoundaryIndex, Link, Point, Ring, Segment, Vector};
 
 /// Outlines nearer to the cut than this, in millimetres, are cut: programs of others follow curves by lines, and offset them in
 /// steps.
@@ -99,6 +99,8 @@ fn ways_over_tabs(motions: &[Motion], floor: f64, stock_top: f64) -> Vec<Segment
 /// A place on an outline, and whether it is cut.
 struct Place {
     point: Point,
+    /// Which way the outline goes there.
+    direction: Vector,
     is_cut: bool,
 }
 
@@ -119,7 +121,11 @@ fn along(ring: &Ring, cuts: &[Cut], spacing: f64) -> Vec<Leftover> {
         let count = (segment.length() / spacing).ceil().max(1.0);
         for k in 0..count as usize {
             let point = segment.point_at(k as f64 / count);
-            places.push(Place { point, is_cut: cuts.iter().any(|cut| cut.takes(point)) });
+            let direction = match segment.link {
+                Link::Line => segment.end - segment.start,
+                Link::Arc(arc) => arc.tangent_at(point),
+            };
+            places.push(Place { point, direction, is_cut: cuts.iter().any(|cut| cut.takes(point)) });
         }
     }
     let depth = |p: Point| cuts.iter().map(|c| c.at_floor.distance(p) - c.radius).fold(f64::INFINITY, f64::min);
@@ -138,7 +144,7 @@ fn along(ring: &Ring, cuts: &[Cut], spacing: f64) -> Vec<Leftover> {
         let (Some(before), Some(after)) = (before, after) else { continue };
         let deepest = run.iter().map(|p| (depth(p.point), p.point)).max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((depth_mm, at)) = deepest else { continue };
-        if depth_mm > corner(before.point, after.point, cuts) + LEAST_LEFTOVER {
+        if depth_mm > corner(before, after, cuts) + LEAST_LEFTOVER {
             let length_mm = step * run.len() as f64;
             left.push(Leftover {
                 x_mm: at.x,
@@ -152,21 +158,20 @@ fn along(ring: &Ring, cuts: &[Cut], spacing: f64) -> Vec<Leftover> {
     left
 }
 
-/// How deep a corner is that a round tool leaves which touches its sides last at `a` and `b`.
-fn corner(a: Point, b: Point, cuts: &[Cut]) -> f64 {
-    let contact = |p: Point| {
-        let nearest = cuts.iter().filter_map(|c| Some((c.radius, c.at_floor.nearest(p)?.1)));
-        nearest.min_by(|m, n| (m.1.distance - m.0).total_cmp(&(n.1.distance - n.0)))
+/// How deep a corner is that a round tool leaves which follows the outline before it up to `a` and behind it from `b` on.
+fn corner(a: &Place, b: &Place, cuts: &[Cut]) -> f64 {
+    let nearest = |p: &Place| {
+        let apart = |cut: &Cut| cut.at_floor.distance(p.point) - cut.radius;
+        cuts.iter().min_by(|m, n| apart(m).total_cmp(&apart(n))).map_or(0.0, |cut| cut.radius)
     };
-    let (Some((radius_a, at_a)), Some((radius_b, at_b))) = (contact(a), contact(b)) else { return 0.0 };
-    let turn = (a - at_a.point).angle(&(b - at_b.point));
-    let half = 0.5 * turn;
-    if !(half > 0.0 && turn < std::f64::consts::PI - SHARPEST_CORNER) {
+    let turn = a.direction.angle(&b.direction);
+    if !(turn > 0.0 && turn < std::f64::consts::PI - SHARPEST_CORNER) {
         return 0.0;
     }
+    let half = 0.5 * turn;
     // The rounding that is tangent to both sides, at least the tool's.
-    let tool = radius_a.max(radius_b);
-    let radius = ((b - a).norm() / (2.0 * half.sin())).clamp(tool, MOST_ROUNDING * tool);
+    let tool = nearest(a).max(nearest(b));
+    let radius = ((b.point - a.point).norm() / (2.0 * half.sin())).clamp(tool, MOST_ROUNDING * tool);
     CURVED_SIDES * radius * (1.0 / half.cos() - 1.0)
 }
 

@@ -4,6 +4,7 @@
 //! plane, units per minute), and that it had to be assumed is a finding. Reading never stops: a line that cannot be
 //! understood is a finding too, and whether the program's meaning is lost is said by its rule.
 
+mod arc;
 mod cycle;
 mod feed;
 mod places;
@@ -13,13 +14,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use self::cycle::{Cycle, CycleWords};
 use self::places::Places;
-use super::arc_words::{ArcForm, solve_arc};
 use super::block::Block;
 use super::codes;
 use super::rules::Rule;
 use super::{Dialect, Finding, MachineKind, Statement};
 use crate::cam::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit};
-use crate::plane::{Point, Turn};
+use crate::plane::Turn;
 use crate::units::Brief;
 
 /// A program and what was found while reading it.
@@ -32,9 +32,6 @@ pub(super) struct Interpretation {
     /// Motions to or from places that only the machine knows: the line, and the lowest z on the way.
     pub(super) unknown_ways: Vec<(usize, f64)>,
 }
-
-/// Chord error of arcs outside of the XY plane, which are read as lines, in millimetres; far below what machines show.
-const OTHER_PLANE_TOLERANCE: f64 = 1e-4;
 
 /// A rule is reported so often on one line: more says nothing new, and a line can be as long as its file.
 const MOST_ALIKE: usize = 8;
@@ -348,46 +345,6 @@ impl<'a> Interpreter<'a> {
             Some(MotionMode::Arc(turn)) => self.move_arc(block, turn, axes, to),
             // Made above.
             Some(MotionMode::Cycle(_)) => {}
-        }
-    }
-
-    fn move_arc(&mut self, block: &Block, turn: Turn, axes: [Option<f64>; 3], to: Point3) {
-        let plane = self.plane.unwrap_or(XY);
-        let scale = self.millimetres();
-        let origin = if self.arc_centers_are_absolute { self.places.origin() } else { [0.0; 3] };
-        let offsets = [('I', 0), ('J', 1), ('K', 2)].map(|(l, axis)| block.value(l).map(|v| origin[axis] + v * scale));
-        let form = ArcForm {
-            from: self.position,
-            to,
-            plane,
-            turn,
-            offsets,
-            offsets_are_absolute: self.arc_centers_are_absolute,
-            radius: block.value('R').map(|v| v * scale),
-            has_end: axes[plane[0]].is_some() || axes[plane[1]].is_some(),
-            is_inch: self.unit == Some(ProgramUnit::Inch),
-            mismatch: self.dialect().arc_mismatch,
-            radius_slack: self.dialect().radius_slack,
-        };
-        let is_helix = axes[plane[2]].is_some() && to[plane[2]] != self.position[plane[2]];
-        if !self.dialect().arcs || (is_helix && !self.dialect().helical_arcs) {
-            self.find(Rule::NoArcs, "");
-        }
-        let line = self.line;
-        let solved = solve_arc(&form, |rule, detail| self.out.findings.push(Finding::new(line, rule, detail)));
-        let Some(arc) = solved else { return };
-        if block.value('P').is_some_and(|turns| turns != 1.0) {
-            self.find(Rule::NotFollowed, "an arc of several turns");
-        }
-        let feed = self.feed_for(arc.length(), block);
-        if plane == XY {
-            let center = Point::new(arc.center[0], arc.center[1]);
-            self.push(arc.to, MotionKind::Arc { center, turn, feed });
-            return;
-        }
-        self.find_once(Rule::ArcOtherPlane, "");
-        for p in arc.points(OTHER_PLANE_TOLERANCE) {
-            self.push(p, MotionKind::Feed { feed });
         }
     }
 

@@ -69,7 +69,8 @@ pub(super) struct StockArgs {
     /// A box that no tool may enter, as x0,y0,x1,y1 or with the z of its top behind them; may be given more than once
     #[arg(long = "keepout", value_name = "BOX", allow_hyphen_values = true)]
     pub(super) keepouts: Vec<Keepout>,
-    /// Side of the cells of the height map [default: a fortieth of the smallest tool, or as many as are four million]
+    /// Side of the cells of the height map, at most a quarter of the smallest tool [default: a fortieth of it, or as many as are
+    /// four million]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub(super) cell: Option<Length>,
 }
