@@ -92,6 +92,7 @@ fn what_is_the_same_on_any_machine_is_clean() {
         "G0 X10 Y10\nG1 Z-1 F100\nG0 Z5\nG28\n",
         "G0 X10 Y10\nG1 Z-1 F100\nG91 G28 Z0\nG90\nG0 X0 Y0\n",
         "G0 X10 Y10\nG1 Z-1 F100\nG0 Z5\nG53 G0 X0 Y0\nG53 G0 Z0\n",
+        "G53 G0 Z0\nG0 X10 Y10\nG1 Z-1 F100\n",
         "G28\nG0 Z5\nG0 X10 Y10\nG1 Z-1 F100\n",
     ] {
         let (json, status) = Bench::new(program).json();

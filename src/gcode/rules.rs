@@ -108,7 +108,7 @@ rules! {
     // The text.
     BadNumber "bad-number" Error Always lost "A letter without a number." "RS274/NGC 3.3.2";
     UnknownText "unknown-text" Error Always lost "Characters that mean nothing in a program." "RS274/NGC 3.3";
-    Expression "expression" Error Data lost "A parameter or expression, which this controller does not work out." "RS274/NGC 3.3.2";
+    Expression "expression" Error Data lost "A parameter or expression: neither this controller nor this reader works it out." "RS274/NGC 3.3.2";
     Exponent "exponent" Error Always lost "A number with an exponent: controllers read the E as a word." "RS274/NGC 3.3.2.1";
     UnknownCode "unknown-code" Error Always lost "A code that no controller here knows." "the dialect's codes";
     UnsupportedCode "unsupported-code" Error Data clear "A code or word that this controller does not know." "the dialect's codes and letters";

@@ -65,7 +65,11 @@ impl Interpreter<'_> {
             self.places.is_lost[axis] &= self.is_incremental == Some(true);
         }
         let is_rapid = matches!(mode, None | Some(MotionMode::Rapid | MotionMode::Cycle(_)));
-        let [x, y, z] = if is_rapid { self.places.is_lost } else { was_lost };
+        let [x, y, mut z] = if is_rapid { self.places.is_lost } else { was_lost };
+        // Straight down from home, which is above, it is the end that counts.
+        if axes[0].is_none() && axes[1].is_none() {
+            z = self.places.is_lost[2];
+        }
         if z && (!is_rapid || axes[2].is_some()) {
             self.out.unknown_ways.push((self.line, f64::NEG_INFINITY));
         } else if x || y {
