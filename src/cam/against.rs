@@ -1,6 +1,7 @@
 //! What a program of several tools does to a part: gouges and leftovers in the plane.
 
 use super::gouge::{Gouge, deepest_cut};
+use super::leftover::{Leftover, Reach, leftovers};
 use super::motion::Program;
 use super::removal::{Run, Uncut, uncut_by};
 use super::solid::Remainder;
@@ -27,6 +28,8 @@ pub struct Against {
     pub gouge: Option<Gouge>,
     /// What is left standing beside the part; `None` on the outline.
     pub uncut: Option<Uncut>,
+    /// The stretches of the outlines that were to be cut and are not.
+    pub left: Vec<Leftover>,
     /// The tools that were not judged: the width of V bits is not that of their cut.
     pub tools_left_out: Vec<u32>,
 }
@@ -39,11 +42,13 @@ pub fn against(program: &Program, tools: &ToolTable, part: &Region, options: &Ag
     let is_judged = |tool: &Tool| tool.is_drill || !matches!(tool.shape, ToolShape::Cone { .. });
     let mut found = Against::default();
     let mut runs: Vec<Run> = Vec::new();
+    let mut reaches: Vec<Reach> = Vec::new();
     for motions in program.motions.chunk_by(|a, b| a.tool == b.tool) {
         let Some(tool) = motions.first().and_then(|m| tools.get(m.tool)) else { continue };
         if !motions.iter().any(|m| m.is_in_stock(stock_top)) {
             continue;
         }
+        reaches.push(Reach { motions, radius: tool.radius() });
         if !is_judged(tool) {
             if !found.tools_left_out.contains(&tool.number) {
                 found.tools_left_out.push(tool.number);
@@ -58,6 +63,7 @@ pub fn against(program: &Program, tools: &ToolTable, part: &Region, options: &Ag
         }
         runs.push(Run { motions, tool_radius: radius });
     }
+    found.left = leftovers(&reaches, &part.rings, floor, stock_top);
     found.uncut = remainder.map(|remainder| uncut_by(&runs, part, remainder, floor));
     found
 }

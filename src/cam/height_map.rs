@@ -13,6 +13,9 @@ pub use super::sweep::CHORD_TOLERANCE;
 /// Cells over the diameter of the smallest tool, unless told otherwise.
 const CELLS_OVER_TOOL: f64 = 40.0;
 
+/// Fewest cells over the diameter of the smallest tool: with fewer, volume and depth of what it cuts are those of the grid.
+const LEAST_CELLS_OVER_TOOL: f64 = 4.0;
+
 /// Most cells of a map, unless told otherwise: 32 megabytes, and as sharp as a picture can show.
 const MOST_CELLS_BY_DEFAULT: f64 = 4e6;
 
@@ -27,9 +30,13 @@ pub enum MapError {
     Stock(f64, f64, f64),
     /// The cells are too small or too large.
     #[error(
-        "cells of {0} mm: the stock of {1:.1} x {2:.1} mm would have more than {MOST_CELLS} of them, or none; choose another --cell"
+        "cells of {0} mm: the stock of {1:.1} x {2:.1} mm would have more than {MOST_CELLS} of them; choose another --cell, or \
+         the part of the stock that matters (--stock 100x60x6mm --stock-at 0,0)"
     )]
     Cells(f64, f64, f64),
+    /// The cells are too large.
+    #[error("cells of {0} mm do not show what a tool of {1} mm does: --cell must be at most a quarter of it, {2} mm")]
+    Coarse(f64, f64, f64),
 }
 
 /// Where the cells are.
@@ -102,11 +109,17 @@ impl HeightMap {
         Ok(HeightMap { grid, heights: vec![stock.top_mm; columns * rows], stock })
     }
 
-    /// The size of cells that shows what tools of `smallest_diameter` do, at most four million of them.
+    /// The size of cells that shows what tools of `smallest_diameter` do: a fortieth of it, or as many as are four million, but
+    /// never more than a quarter of it.
     pub fn default_cell(stock: &Stock, smallest_diameter: f64) -> f64 {
         let size = stock.outline();
         let least = (size.width() * size.height() / MOST_CELLS_BY_DEFAULT).sqrt();
-        least.max(smallest_diameter / CELLS_OVER_TOOL)
+        least.max(smallest_diameter / CELLS_OVER_TOOL).min(HeightMap::coarsest_cell(smallest_diameter))
+    }
+
+    /// The largest cells that still show what tools of `smallest_diameter` do.
+    pub fn coarsest_cell(smallest_diameter: f64) -> f64 {
+        smallest_diameter / LEAST_CELLS_OVER_TOOL
     }
 
     /// What it was cut from.

@@ -18,7 +18,8 @@ use crate::plane::{Point, Segment};
 /// Heights closer than this are one level, in millimetres.
 const SAME_LEVEL: f64 = 0.01;
 
-/// A level with less of the way than this share of the longest one's is none: rounding makes small parts of ramps level.
+/// Where a ramp goes on down behind it, a level with less of the way than this share of the longest one's is none: rounding
+/// makes small parts of ramps level.
 const LEAST_WAY: f64 = 0.005;
 
 /// Most levels: with more, a program carves, and its depths are no levels.
@@ -85,24 +86,38 @@ pub fn cut_levels(program: &Program, tools: &ToolTable, stock: &Stock) -> Result
 
 /// The levels, from the deepest up.
 fn heights(program: &Program, stock_top: f64) -> Vec<f64> {
-    // Heights and the way along them; a plunge counts as far as it goes.
-    let mut levels: Vec<(f64, f64)> = Vec::new();
-    for (index, motion) in program.motions.iter().enumerate().filter(|(_, m)| m.is_feed() && m.is_in_stock(stock_top)) {
-        let is_plunge = motion.trace().next().is_none();
-        // What goes on downward, or on along the level, ends at no level of its own.
-        let goes_on = program.motions.get(index + 1).is_some_and(|next| next.to.z <= motion.to.z && next.is_feed());
-        if (!is_plunge && motion.from.z == motion.to.z) || (is_plunge && motion.to.z < motion.from.z && !goes_on) {
-            levels.push((motion.to.z, motion.length()));
+    let motions: Vec<&Motion> =
+        program.motions.iter().filter(|m| !matches!(m.kind, MotionKind::Dwell { .. })).collect();
+    let is_way = |m: &Motion| m.is_feed() && m.trace().next().is_some();
+    let is_ramp = |m: Option<&&Motion>| m.is_some_and(|m| is_way(m) && m.to.z < m.from.z);
+    // Heights, the way along them, and whether it may be a part of a ramp.
+    let mut levels: Vec<(f64, f64, bool)> = Vec::new();
+    let mut index = 0usize;
+    for run in motions.chunk_by(|a, b| is_way(a) && is_way(b) && a.from.z == a.to.z && b.from.z == b.to.z) {
+        let before = index.checked_sub(1).and_then(|i| motions.get(i));
+        index += run.len();
+        let Some(first) = run.first().filter(|m| m.is_feed() && m.is_in_stock(stock_top)) else { continue };
+        let next = motions.get(index);
+        if is_way(first) && first.from.z == first.to.z {
+            let way = run.iter().map(|m| m.length()).sum();
+            levels.push((first.to.z, way, is_ramp(before) && is_ramp(next)));
+        }
+        // A plunge is a level where it ends, unless it goes on downward, or on along the level.
+        let goes_on = next.is_some_and(|next| next.to.z <= first.to.z && next.is_feed());
+        if !is_way(first) && first.to.z < first.from.z && !goes_on {
+            levels.push((first.to.z, first.length(), false));
         }
     }
     levels.sort_by(|a, b| a.0.total_cmp(&b.0));
     levels.dedup_by(|a, b| {
         let same = (a.0 - b.0).abs() < SAME_LEVEL;
-        b.1 += if same { a.1 } else { 0.0 };
+        if same {
+            (b.1, b.2) = (b.1 + a.1, b.2 && a.2);
+        }
         same
     });
     let longest = levels.iter().map(|l| l.1).fold(0.0, f64::max);
-    levels.into_iter().filter(|l| l.1 > LEAST_WAY * longest).map(|l| l.0).collect()
+    levels.into_iter().filter(|(_, way, is_of_ramp)| !is_of_ramp || *way > LEAST_WAY * longest).map(|l| l.0).collect()
 }
 
 /// What is swept between two heights: the lower one excluded, below which flat tools have been counted.
@@ -213,6 +228,20 @@ mod tests {
         // What is below -1 of the ramp: from 10 to 20, a little more for the tolerance of a level.
         let at_1 = 40.0 + 4.0 * PI + 80.0 + 4.0 * PI;
         assert!((found[0].area_mm2 - at_1).abs() < 4.0 * 10.0 * SAME_LEVEL + 2e-3, "{} {at_1}", found[0].area_mm2);
+    }
+
+    #[test]
+    fn small_deep_cuts_are_levels_and_level_bits_of_ramps_are_none() {
+        let mut face = "G0 X-40 Y-40\nG1 Z-1\n".to_owned();
+        for row in 0..40 {
+            face += &format!("G1 X{}\nG1 Y{}\n", if row % 2 == 0 { 40 } else { -40 }, 2 * row - 38);
+        }
+        let deep = "G0 Z5\nG0 X0 Y0\nG1 Z-3\nG1 X3\nG0 Z5\nG0 X20\nG1 Z-4\nG0 Z5\n";
+        let z = |path: &str| levels("T1=flat 4mm", path).iter().map(|l| l.z_mm).collect::<Vec<_>>();
+        assert_eq!(z(&format!("{face}{deep}")), [-1.0, -3.0, -4.0]);
+        // A ramp whose rounding has made a millimetre of it level, in two pieces.
+        let ramp = "G0 Z5\nG0 X0 Y0\nG1 Z-1\nG1 X10 Z-2\nG1 X10.5\nG1 X11\nG1 X20 Z-3\nG1 X0\nG0 Z5\n";
+        assert_eq!(z(&format!("{face}{ramp}")), [-1.0, -3.0]);
     }
 
     #[test]

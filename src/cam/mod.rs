@@ -26,6 +26,7 @@ mod job_file;
 mod keepout;
 mod lay;
 mod lead;
+mod leftover;
 mod levels;
 mod motion;
 mod nearest_next;
@@ -78,6 +79,7 @@ pub use job::{
 pub use job_file::{JobFile, ParseJobError, TypedPathRadius, UnknownChoice};
 pub use keepout::{Keepout, ParseKeepoutError};
 pub use lay::{Hole, Notice};
+pub use leftover::{LEAST_LEFTOVER, Leftover};
 pub use levels::{CutLevel, LevelError, cut_levels};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};

@@ -29,7 +29,7 @@ const RELATIVE_FLATTENING: f64 = 1e-4;
 const STRAIGHTNESS: f64 = 5e-4;
 
 /// Motions this much above the floor, in millimetres, still reach it.
-const FLOOR_ROUNDING: f64 = 0.005;
+pub(super) const FLOOR_ROUNDING: f64 = 0.005;
 
 /// What stands beside the part.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]

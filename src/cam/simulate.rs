@@ -98,6 +98,7 @@ pub fn check_tools(program: &Program, tools: &ToolTable, top: f64) -> Result<(),
 pub fn simulate(program: &Program, tools: &ToolTable, options: &SimulateOptions) -> Result<Simulation, SimulateError> {
     let stock = &options.stock;
     check_tools(program, tools, stock.top_mm)?;
+    check_cell(program, tools, options)?;
     let mut run =
         Run { options, map: HeightMap::new(*stock, options.cell)?, events: Events::default(), hits: Vec::new() };
     let seconds = motion_seconds(program, &options.machine);
@@ -121,6 +122,19 @@ pub fn simulate(program: &Program, tools: &ToolTable, options: &SimulateOptions)
     let removed_mm3 = operations.iter().map(|o| o.removed_mm3).sum();
     operations.retain(OperationRun::is_worth_telling);
     Ok(Simulation { map: run.map, events: run.events.into_vec(), operations, time, removed_mm3 })
+}
+
+/// Whether the cells show the smallest tool that cuts.
+fn check_cell(program: &Program, tools: &ToolTable, options: &SimulateOptions) -> Result<(), MapError> {
+    let cutting = program.motions.iter().filter(|m| m.is_in_stock(options.stock.top_mm));
+    let diameters = cutting.filter_map(|m| tools.get(m.tool)).map(|tool| tool.diameter);
+    let smallest = diameters.fold(f64::INFINITY, f64::min);
+    let coarsest = HeightMap::coarsest_cell(smallest);
+    // Rounding of a quarter is none.
+    match options.cell > coarsest * (1.0 + 1e-9) {
+        true => Err(MapError::Coarse(options.cell, smallest, coarsest)),
+        false => Ok(()),
+    }
 }
 
 /// A run under way.

@@ -13,7 +13,7 @@ use crate::cam::{
     self, Against, AgainstOptions, CutLevel, HeightMap, Program, Remainder, Side, SimulateOptions, Simulation, Stock,
     ToolTable,
 };
-use crate::gcode;
+use crate::gcode::{self, Dialect, Finding, LintOptions, Reading};
 use crate::io::mesh::{self as files, MeshFormat};
 use crate::mesh::PolygonMesh;
 use crate::plane::Point;
@@ -36,13 +36,18 @@ pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
         bail!("{}: this is a drawing and no program: make one of it with `clopen mill` first", name());
     }
     let program = gcode::read(&text).with_context(name)?;
+    if program.motions.is_empty() {
+        bail!("{}: nothing moves: there is no motion in it that could be simulated", name());
+    }
     let tools = ToolTable::gather(&args.tools, &program);
     let top = input::millimetres(args.stock.stock_top, "--stock-top")?;
+    let guesses = guesses(&text, top);
     cam::check_tools(&program, &tools, top).with_context(name)?;
     let stock = stock(args, &program, &tools, top)?;
     let options = options(args, &program, &tools, stock)?;
     let simulation = cam::simulate(&program, &tools, &options).with_context(name)?;
-    let against = against(args, &program, &tools, &stock)?;
+    let floor = floor(args, &program, &tools, &stock)?;
+    let against = against(args, &program, &tools, &stock, floor)?;
     let levels = match &args.output.levels {
         Some(_) => cam::cut_levels(&program, &tools, &stock).with_context(name)?,
         None => Vec::new(),
@@ -56,10 +61,18 @@ pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
         input: &args.file,
         tools: &tools,
         used: used(&program, top),
+        unknown_to_program: {
+            let moves = |number| program.motions.iter().any(|m| m.tool == number);
+            let told = |number| moves(0) && tools.get(0).is_some_and(|t| t.number == number);
+            let numbers = args.tools.iter().map(|t| t.number);
+            numbers.filter(|n| !moves(*n) && !told(*n)).collect()
+        },
         stock_is_given: args.stock.stock.is_some(),
         simulation: &simulation,
+        guesses: &guesses,
         levels: &levels,
         against: against.as_ref(),
+        floor,
         side: args.against.side,
         written: &written,
     };
@@ -74,6 +87,14 @@ pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
         output::print(&text)?;
     }
     Ok(if report.is_clean() { ExitStatus::Done } else { ExitStatus::CheckFailed })
+}
+
+/// What the linter finds that makes the motions, as they were read, no machine's.
+fn guesses(text: &str, stock_top: f64) -> Vec<Finding> {
+    let dialect = Dialect::of_header(text).unwrap_or(Dialect::portable());
+    let mut findings = gcode::lint(text, &LintOptions { dialect, stock_top });
+    findings.retain(|f| f.rule.info().reading != Reading::Exact);
+    findings
 }
 
 /// Before any work: names that cannot be.
@@ -140,7 +161,28 @@ fn used(program: &Program, top: f64) -> Vec<u32> {
     numbers
 }
 
-fn against(args: &SimulateArgs, program: &Program, tools: &ToolTable, stock: &Stock) -> Result<Option<Against>> {
+/// z that the cut must reach. Where it is not said: that of the deepest cut sideways, but none below a stock that is given,
+/// because through cuts go a little deeper; the tips of drills do too, and count only where there is nothing else.
+fn floor(args: &SimulateArgs, program: &Program, tools: &ToolTable, stock: &Stock) -> Result<f64> {
+    if let Some(z) = args.against.floor {
+        return input::millimetres(z, "--floor");
+    }
+    let feeds = || program.motions.iter().filter(|m| m.is_feed());
+    let is_mill = |number| tools.get(number).is_none_or(|t| !t.is_drill);
+    let sideways = feeds().filter(|m| is_mill(m.tool) && m.trace().next().is_some());
+    let deepest = sideways.map(|m| m.lowest()).fold(stock.top_mm, f64::min);
+    let deepest =
+        if deepest < stock.top_mm { deepest } else { feeds().map(|m| m.lowest()).fold(stock.top_mm, f64::min) };
+    Ok(if args.stock.stock.is_some() { deepest.max(stock.bottom_mm) } else { deepest })
+}
+
+fn against(
+    args: &SimulateArgs,
+    program: &Program,
+    tools: &ToolTable,
+    stock: &Stock,
+    floor: f64,
+) -> Result<Option<Against>> {
     let Some(path) = &args.against.against else { return Ok(None) };
     let drawing = args.reading.read(path)?;
     let Some(mm_per_unit) = drawing.mm_per_unit else {
@@ -152,14 +194,12 @@ fn against(args: &SimulateArgs, program: &Program, tools: &ToolTable, stock: &St
     };
     let part = drawing.region.scaled(mm_per_unit);
     let part = part.translated(cam::translation(args.against.origin, &part));
-    let floor = args.against.floor.map(|z| input::millimetres(z, "--floor")).transpose()?;
-    let deepest = program.motions.iter().filter(|m| m.is_feed()).map(|m| m.lowest()).fold(stock.top_mm, f64::min);
     let remainder = match args.against.side {
         Side::Outside => Some(Remainder::Inside),
         Side::Inside => Some(Remainder::Outside),
         Side::On => None,
     };
-    let options = AgainstOptions { remainder, stock_top: stock.top_mm, floor: floor.unwrap_or(deepest) };
+    let options = AgainstOptions { remainder, stock_top: stock.top_mm, floor };
     Ok(Some(cam::against(program, tools, &part, &options)))
 }
 

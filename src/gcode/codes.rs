@@ -36,11 +36,11 @@ pub(super) fn group(is_g: bool, tenths: u32) -> Option<u32> {
     }
 }
 
-/// Splines, pockets, polar coordinates, probing, threads, cutter compensation, scaling, macros, rotation and cycles, which are
-/// read but not followed.
+/// Splines, pockets, polar coordinates, probing, threads, cutter compensation, scaling, macros, rotation and cycles other than
+/// those of drilling, which are read but not followed.
 pub(super) fn is_not_followed(tenths: u32) -> bool {
     matches!(
         tenths,
-        50..=80 | 120 | 130 | 160 | 310 | 330 | 331 | 382..=385 | 410..=421 | 510 | 650..=680 | 730..=760 | 810..=890
+        50..=80 | 120 | 130 | 160 | 310 | 330 | 331 | 382..=385 | 410..=421 | 510 | 650..=680 | 740..=760 | 840..=890
     )
 }

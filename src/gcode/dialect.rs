@@ -146,6 +146,9 @@ pub struct Dialect {
     pub refused_code_length: Option<usize>,
     /// The controller refuses lines with more characters than this, comments and blanks included.
     pub refused_line_length: Option<usize>,
+    /// Whether parameters, expressions and the flow control of O words are worked out.
+    #[serde(default)]
+    pub expressions: bool,
     /// Whether lines carry numbers.
     pub line_numbers: bool,
     /// Whether a line holds a single G, M or T command.

@@ -4,18 +4,22 @@
 //! plane, units per minute), and that it had to be assumed is a finding. Reading never stops: a line that cannot be
 //! understood is a finding too, and whether the program's meaning is lost is said by its rule.
 
+mod arc;
+mod cycle;
 mod feed;
+mod places;
 mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::arc_words::{ArcForm, solve_arc};
+use self::cycle::{Cycle, CycleWords};
+use self::places::Places;
 use super::block::Block;
 use super::codes;
 use super::rules::Rule;
 use super::{Dialect, Finding, MachineKind, Statement};
 use crate::cam::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit};
-use crate::plane::{Point, Turn};
+use crate::plane::Turn;
 use crate::units::Brief;
 
 /// A program and what was found while reading it.
@@ -25,13 +29,9 @@ pub(super) struct Interpretation {
     pub(super) findings: Vec<Finding>,
     /// How many motions there were before each tool change.
     pub(super) tool_changes: Vec<usize>,
+    /// Motions to or from places that only the machine knows: the line, and the lowest z on the way.
+    pub(super) unknown_ways: Vec<(usize, f64)>,
 }
-
-/// Where a homing motion leaves Z if the program has not moved yet, in millimetres: only pictures see it.
-const ASSUMED_HOME: f64 = 25.0;
-
-/// Chord error of arcs outside of the XY plane, which are read as lines, in millimetres; far below what machines show.
-const OTHER_PLANE_TOLERANCE: f64 = 1e-4;
 
 /// A rule is reported so often on one line: more says nothing new, and a line can be as long as its file.
 const MOST_ALIKE: usize = 8;
@@ -41,12 +41,14 @@ enum MotionMode {
     Rapid,
     Feed,
     Arc(Turn),
+    Cycle(Cycle),
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum FeedMode {
     PerMinute,
     InverseTime,
+    PerTurn,
 }
 
 /// Axes as indices into a [`Point3`]: the two of the plane and the one across.
@@ -79,6 +81,8 @@ struct Interpreter<'a> {
     /// The tool that the last M6 has put into the spindle; `None` before the first.
     loaded_tool: Option<u32>,
     position: Point3,
+    places: Places,
+    cycle: CycleWords,
     z_is_known: bool,
     highest: f64,
     said: BTreeSet<Rule>,
@@ -143,7 +147,7 @@ impl<'a> Interpreter<'a> {
     /// In the order in which controllers act: settings first, then dwell, then motion, then the end.
     fn execute(&mut self, block: &Block) {
         let mut dwell = false;
-        let mut homing = false;
+        let (mut homing, mut origin) = (None, None);
         let mut end = false;
         let mut takes_axes = false;
         let mut takes_offsets = false;
@@ -151,10 +155,14 @@ impl<'a> Interpreter<'a> {
         for word in &block.words {
             let Some(tenths) = codes::tenths(word.value) else { continue };
             match (word.letter, tenths) {
-                ('G', 0) => self.motion = Some(MotionMode::Rapid),
-                ('G', 10) => self.motion = Some(MotionMode::Feed),
-                ('G', 20) => self.motion = Some(MotionMode::Arc(Turn::Right)),
-                ('G', 30) => self.motion = Some(MotionMode::Arc(Turn::Left)),
+                ('G', 0) => self.set_motion(Some(MotionMode::Rapid)),
+                ('G', 10) => self.set_motion(Some(MotionMode::Feed)),
+                ('G', 20) => self.set_motion(Some(MotionMode::Arc(Turn::Right))),
+                ('G', 30) => self.set_motion(Some(MotionMode::Arc(Turn::Left))),
+                ('G', 800) => self.set_motion(None),
+                ('G', t) if Cycle::of(t).is_some() => self.set_motion(Cycle::of(t).map(MotionMode::Cycle)),
+                ('G', 980) => self.cycle.returns_to_r = false,
+                ('G', 990) => self.cycle.returns_to_r = true,
                 ('G', 40) => dwell = true,
                 ('G', 170) => self.plane = Some(XY),
                 ('G', 180) => self.plane = Some(ZX),
@@ -167,12 +175,19 @@ impl<'a> Interpreter<'a> {
                 ('G', 911) => self.arc_centers_are_absolute = false,
                 ('G', 930) => self.set_feed_mode(FeedMode::InverseTime),
                 ('G', 940) => self.set_feed_mode(FeedMode::PerMinute),
-                ('G', 280 | 300 | 530) => homing = true,
+                ('G', 950) => self.set_feed_mode(FeedMode::PerTurn),
+                ('G', 280 | 300 | 530) => homing = Some(tenths),
                 ('G', 281 | 301) => {}
                 // The length of the tool in the spindle: with it, positions are those of the tip, as they are read.
                 ('G', 430) => takes_offsets = true,
-                ('G', 100 | 431 | 432 | 520 | 920..=923 | 550..=593) => {
-                    takes_axes |= matches!(tenths, 100 | 431 | 520 | 920);
+                ('G', 520 | 920..=923) => {
+                    takes_axes |= matches!(tenths, 520 | 920);
+                    origin = Some(tenths);
+                    self.find_once(Rule::SetOrigin, &format!("G{}", Brief(word.value)));
+                }
+                ('G', 540..=593) => self.choose_system(tenths),
+                ('G', 100 | 431 | 432) => {
+                    takes_axes |= matches!(tenths, 100 | 431);
                     takes_offsets = true;
                     self.find_once(Rule::ShiftedOrigin, &format!("G{}", Brief(word.value)));
                 }
@@ -224,12 +239,16 @@ impl<'a> Interpreter<'a> {
         }
         let axes = ['X', 'Y', 'Z'].map(|letter| block.value(letter));
         let has_axes = axes.iter().any(Option::is_some);
-        if homing {
-            self.home(axes, has_axes);
+        if let Some(code) = origin {
+            self.set_origin(code, axes);
+        }
+        if let Some(code) = homing {
+            self.home(code, axes);
         } else if !takes_axes {
             self.move_axes(block, axes, has_axes);
         }
         let is_arc = matches!(self.motion, Some(MotionMode::Arc(_)));
+        takes_offsets |= matches!(self.motion, Some(MotionMode::Cycle(_)));
         let offsets = ['I', 'J', 'K', 'R'].into_iter().find(|&l| block.value(l).is_some());
         if let Some(letter) = offsets.filter(|_| !is_arc && !takes_offsets) {
             self.find(Rule::UnusedWord, letter);
@@ -298,16 +317,6 @@ impl<'a> Interpreter<'a> {
         self.highest = self.highest.max(to.z);
     }
 
-    /// G28, G30 and G53: the machine knows the place, the program does not. Z alone matters to what is cut: it goes up.
-    fn home(&mut self, axes: [Option<f64>; 3], has_axes: bool) {
-        self.find_once(Rule::Homing, "");
-        if axes[2].is_some() || !has_axes {
-            let z = if self.highest.is_finite() { self.highest } else { ASSUMED_HOME };
-            self.push(Point3::new(self.position.x, self.position.y, z), MotionKind::Rapid);
-            self.z_is_known = true;
-        }
-    }
-
     fn move_axes(&mut self, block: &Block, axes: [Option<f64>; 3], has_axes: bool) {
         let mode = self.motion;
         let is_arc = matches!(mode, Some(MotionMode::Arc(_)));
@@ -318,24 +327,15 @@ impl<'a> Interpreter<'a> {
         }
         self.find_missing(mode);
         self.follow_feed(mode, block);
-        let scale = self.millimetres();
-        let mut to = self.position;
-        for (axis, value) in axes.into_iter().enumerate() {
-            if let Some(value) = value {
-                let from = if self.is_incremental == Some(true) { self.position[axis] } else { 0.0 };
-                to[axis] = from + value * scale;
-            }
+        if let Some(MotionMode::Cycle(cycle)) = mode {
+            return self.drill(cycle, block, axes);
         }
+        let to = self.target(axes);
         if (axes[0].is_some() || axes[1].is_some()) && !self.z_is_known {
             self.find_once(Rule::TravelBeforeLift, "");
         }
-        if axes[2].is_some() && !self.z_is_known {
-            // Where the tool was is unknown; that it was already there makes the first move of Z no plunge.
-            if self.is_incremental != Some(true) {
-                self.position.z = to.z;
-            }
-            self.z_is_known = true;
-        }
+        self.take_z(axes, to);
+        self.note_unknown_way(mode, axes, to);
         match mode {
             None | Some(MotionMode::Rapid) => self.push(to, MotionKind::Rapid),
             Some(MotionMode::Feed) => {
@@ -343,45 +343,8 @@ impl<'a> Interpreter<'a> {
                 self.push(to, MotionKind::Feed { feed });
             }
             Some(MotionMode::Arc(turn)) => self.move_arc(block, turn, axes, to),
-        }
-    }
-
-    fn move_arc(&mut self, block: &Block, turn: Turn, axes: [Option<f64>; 3], to: Point3) {
-        let plane = self.plane.unwrap_or(XY);
-        let scale = self.millimetres();
-        let offsets = ['I', 'J', 'K'].map(|letter| block.value(letter).map(|v| v * scale));
-        let form = ArcForm {
-            from: self.position,
-            to,
-            plane,
-            turn,
-            offsets,
-            offsets_are_absolute: self.arc_centers_are_absolute,
-            radius: block.value('R').map(|v| v * scale),
-            has_end: axes[plane[0]].is_some() || axes[plane[1]].is_some(),
-            is_inch: self.unit == Some(ProgramUnit::Inch),
-            mismatch: self.dialect().arc_mismatch,
-            radius_slack: self.dialect().radius_slack,
-        };
-        let is_helix = axes[plane[2]].is_some() && to[plane[2]] != self.position[plane[2]];
-        if !self.dialect().arcs || (is_helix && !self.dialect().helical_arcs) {
-            self.find(Rule::NoArcs, "");
-        }
-        let line = self.line;
-        let solved = solve_arc(&form, |rule, detail| self.out.findings.push(Finding::new(line, rule, detail)));
-        let Some(arc) = solved else { return };
-        if block.value('P').is_some_and(|turns| turns != 1.0) {
-            self.find(Rule::NotFollowed, "an arc of several turns");
-        }
-        let feed = self.feed_for(arc.length(), block);
-        if plane == XY {
-            let center = Point::new(arc.center[0], arc.center[1]);
-            self.push(arc.to, MotionKind::Arc { center, turn, feed });
-            return;
-        }
-        self.find_once(Rule::ArcOtherPlane, "");
-        for p in arc.points(OTHER_PLANE_TOLERANCE) {
-            self.push(p, MotionKind::Feed { feed });
+            // Made above.
+            Some(MotionMode::Cycle(_)) => {}
         }
     }
 
@@ -401,10 +364,15 @@ impl<'a> Interpreter<'a> {
         }
         match mode {
             None => self.find_once(Rule::MissingMotionMode, ""),
-            Some(MotionMode::Feed | MotionMode::Arc(_)) if feed_mode && self.feed_mode.is_none() => {
+            Some(MotionMode::Feed | MotionMode::Arc(_) | MotionMode::Cycle(_))
+                if feed_mode && self.feed_mode.is_none() =>
+            {
                 self.find_once(Rule::MissingFeedMode, "");
             }
             _ => {}
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -63,8 +63,14 @@ pub fn lint(text: &str, options: &LintOptions) -> Vec<Finding> {
     let read = interpret(text, dialect);
     let mut findings = read.findings;
     motions::check(&read.program, &read.tool_changes, options, &mut findings);
+    // The first tells enough: until the machine is back at a known place, all others follow from it.
+    let below = read.unknown_ways.iter().find(|(_, z)| *z < options.stock_top - HEIGHT_ROUNDING);
+    findings.extend(below.map(|(line, _)| Finding::new(*line, Rule::UnknownWay, "")));
     check_end(&read.program, text.lines().count(), options, &mut findings);
     findings.retain(|f| f.rule.is_for(dialect));
+    // Behind a line that the controller follows and this reader does not, nobody here knows places, feeds and arcs.
+    let lost = findings.iter().filter(|f| f.rule == Rule::NotFollowed).map(|f| f.line).min();
+    findings.retain(|f| lost.is_none_or(|lost| f.line < lost) || !f.rule.is_about_places());
     for finding in &mut findings {
         if let Some(how) = dialect.refuses.get(&finding.rule) {
             finding.source = format!("{}: {how}", dialect.name);

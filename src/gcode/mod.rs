@@ -20,7 +20,7 @@ pub use dialect::{
 };
 pub use lint::{Finding, LOW_TRAVEL, LintOptions, lint};
 pub use reader::{ReadError, read, read_as};
-pub use rules::{RULES, Rule, RuleInfo, RuleScope, Severity};
+pub use rules::{RULES, Reading, Rule, RuleInfo, RuleScope, Severity};
 pub use writer::{
     Arcs, LINES_FOR_ARC_TOLERANCE, ProgramFile, WriteError, WriteOptions, write, write_files, write_steps,
 };

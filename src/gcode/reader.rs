@@ -1,11 +1,11 @@
 //! A program's text, read back into what a machine will do.
 //!
 //! Reads programs of any origin: millimetres and inches, absolute and incremental, arcs by centre or by radius, in all
-//! planes, helices, full circles, comments in both styles. It refuses what it cannot follow: parameters and
-//! expressions, cycles, cutter compensation, splines.
+//! planes, helices, full circles, drilling cycles, origins that the program sets, comments in both styles. It refuses what it
+//! cannot follow: parameters and expressions, other cycles, cutter compensation, splines.
 
 use super::interpreter::interpret;
-use super::{Dialect, Finding};
+use super::{Dialect, Finding, Reading};
 use crate::cam::Program;
 
 /// Why a program cannot be read: its first line whose meaning is lost.
@@ -30,7 +30,7 @@ pub fn read(text: &str) -> Result<Program, ReadError> {
 /// Where a line cannot be understood, so that the motions would not be those of a machine.
 pub fn read_as(text: &str, dialect: &Dialect) -> Result<Program, ReadError> {
     let read = interpret(text, dialect);
-    match read.findings.into_iter().find(|f| f.rule.info().meaning_lost) {
+    match read.findings.into_iter().find(|f| f.rule.info().reading == Reading::Lost) {
         Some(finding) => Err(ReadError(finding)),
         None => Ok(read.program),
     }
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_followed_is_refused_with_its_line() {
-        for text in ["G0 Z1\nG1 X#1 F5", "G0 Z1\nG41 D1", "G0 Z1\nG81 X1 Z-1 R1", "G0 Z1\nX1 X2", "G0 Z1\nG2 X5 Y5"] {
+        for text in ["G0 Z1\nG1 X#1 F5", "G0 Z1\nG41 D1", "G0 Z1\nG85 X1 Z-1 R1", "G0 Z1\nX1 X2", "G0 Z1\nG2 X5 Y5"] {
             let error = read(text).unwrap_err();
             assert_eq!(error.0.line, 2, "{text}: {error}");
         }

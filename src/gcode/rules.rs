@@ -47,6 +47,17 @@ impl fmt::Display for RuleScope {
     }
 }
 
+/// What becomes of the motions that are read where a rule is broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// They are those of a machine.
+    Exact,
+    /// The controller refuses the line, or moves elsewhere: what is read is a guess, and so is what it cuts.
+    Guessed,
+    /// There are none.
+    Lost,
+}
+
 /// One rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RuleInfo {
@@ -58,8 +69,8 @@ pub struct RuleInfo {
     pub severity: Severity,
     /// Which programs it is for.
     pub scope: RuleScope,
-    /// Whether what the program means is lost, so that it cannot be simulated.
-    pub meaning_lost: bool,
+    /// What a reader of the program makes of it.
+    pub reading: Reading,
     /// What it says, for people.
     pub meaning: &'static str,
     /// Where it comes from.
@@ -67,7 +78,7 @@ pub struct RuleInfo {
 }
 
 macro_rules! rules {
-    ($($variant:ident $name:literal $severity:ident $scope:ident $lost:tt $meaning:literal $source:literal;)*) => {
+    ($($variant:ident $name:literal $severity:ident $scope:ident $reading:tt $meaning:literal $source:literal;)*) => {
         /// The name of a rule.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Rule {
@@ -81,14 +92,15 @@ macro_rules! rules {
                 name: $name,
                 severity: Severity::$severity,
                 scope: RuleScope::$scope,
-                meaning_lost: rules!(@lost $lost),
+                reading: rules!(@reading $reading),
                 meaning: $meaning,
                 source: $source,
             },)*
         ];
     };
-    (@lost clear) => { false };
-    (@lost lost) => { true };
+    (@reading clear) => { Reading::Exact };
+    (@reading guessed) => { Reading::Guessed };
+    (@reading lost) => { Reading::Lost };
 }
 
 // RS274/NGC is the NIST report NISTIR 6556, with its sections; names with numbers are issues of projects.
@@ -96,16 +108,18 @@ rules! {
     // The text.
     BadNumber "bad-number" Error Always lost "A letter without a number." "RS274/NGC 3.3.2";
     UnknownText "unknown-text" Error Always lost "Characters that mean nothing in a program." "RS274/NGC 3.3";
-    Expression "expression" Error Always lost "A parameter or expression, which this reader does not work out." "RS274/NGC 3.3.2";
+    Expression "expression" Error Data lost "A parameter or expression: neither this controller nor this reader works it out." "RS274/NGC 3.3.2";
     Exponent "exponent" Error Always lost "A number with an exponent: controllers read the E as a word." "RS274/NGC 3.3.2.1";
     UnknownCode "unknown-code" Error Always lost "A code that no controller here knows." "the dialect's codes";
     UnsupportedCode "unsupported-code" Error Data clear "A code or word that this controller does not know." "the dialect's codes and letters";
     ToolChange "tool-change" Error Data clear "M6, where the controller cannot change tools." "the dialect's codes";
-    SeveralCodes "several-codes" Error Data clear "A second command on a line, where the controller runs the first alone." "Marlin, parser.cpp";
-    MotionWordMissing "motion-word-missing" Error Data clear "Coordinates without G0 to G3, where the controller forgets them at the end of every line." "Marlin, GCODE_MOTION_MODES";
-    NotFollowed "not-followed" Error Always lost "A cycle, spline or cutter compensation, which this reader does not follow." "this reader";
-    ShiftedOrigin "shifted-origin" Warning Always clear "An offset or a change of coordinate system; positions are read as if there were none." "this reader";
+    SeveralCodes "several-codes" Error Data guessed "A second command on a line, where the controller runs the first alone." "Marlin, parser.cpp";
+    MotionWordMissing "motion-word-missing" Error Data guessed "Coordinates without G0 to G3, where the controller forgets them at the end of every line." "Marlin, GCODE_MOTION_MODES";
+    NotFollowed "not-followed" Warning Always lost "Something that this reader does not follow: a cycle, spline, cutter compensation, subroutine, parameter or expression." "this reader";
+    ShiftedOrigin "shifted-origin" Warning Always guessed "An offset or a change of coordinate system whose size only the machine knows; positions are read as if there were none." "this reader";
+    SetOrigin "set-origin" Warning Always clear "The program moves its own zero, and controllers may keep it for the next one." "RS274/NGC 3.5.18";
     Homing "homing" Warning Always clear "A motion to a place that only the machine knows (G28, G30, G53)." "this reader";
+    UnknownWay "unknown-way" Error Always guessed "A motion below the top of the stock, or at a feed, to or from a place that only the machine knows: nobody can say what it cuts." "this reader";
     DuplicateWord "duplicate-word" Error Always lost "The same letter twice on a line." "RS274/NGC 3.3.3";
     ConflictingCodes "conflicting-codes" Error Always lost "Two codes of one group on a line." "RS274/NGC 3.4";
     UnusedWord "unused-word" Error Refused clear "A word that nothing on its line uses." "RS274/NGC 3.5";
@@ -121,24 +135,24 @@ rules! {
     MissingDistanceMode "missing-distance-mode" Warning Data clear "Motion before G90 or G91 says from where distances count." "a program always";
     MissingFeedMode "missing-feed-mode" Warning Data clear "Motion at a feed before G93 or G94 says what F means." "a program always";
     MissingMotionMode "missing-motion-mode" Error Refused clear "Coordinates before any of G0 to G3 says how to go there." "RS274/NGC 3.5";
-    NoFeed "no-feed" Error Always clear "Motion at a feed without an F above zero." "grbl 723, gnea/grbl 167 255, bCNC 88";
+    NoFeed "no-feed" Error Always guessed "Motion at a feed without an F above zero." "grbl 723, gnea/grbl 167 255, bCNC 88";
     FeedOfRapid "feed-of-rapid" Warning Always clear "Motion at the feed that was last said with a rapid: the cut may run at the speed of travel." "Marlin, one feed for G0 and G1";
     RapidWithoutFeed "rapid-without-feed" Warning Data clear "A rapid without an F, where it would keep to the feed of the cut before." "Marlin, one feed for G0 and G1";
     FeedAfterToolChange "feed-after-tool-change" Warning Always clear "The first cut of a tool at the feed of the tool before." "a program always";
     NegativeValue "negative-value" Error Always clear "A feed, speed, time or tool number below zero." "RS274/NGC 3.5";
     SpeedOutOfRange "speed-out-of-range" Warning Data clear "An S above the controller's full speed." "Marlin, CUTTER_POWER_UNIT";
-    DwellWithoutTime "dwell-without-time" Error Always clear "G4 without its time." "RS274/NGC 3.5.4";
+    DwellWithoutTime "dwell-without-time" Error Always guessed "G4 without its time." "RS274/NGC 3.5.4";
     // Arcs.
     NoArcs "no-arcs" Error Data clear "An arc, or a helix, where the controller has none." "krabzcam 7, juicy-gcode 17";
     ArcWithoutCenter "arc-without-center" Error Always lost "An arc with neither I, J nor R." "RS274/NGC 3.5.3.2";
     ArcWithoutEnd "arc-without-end" Error Refused clear "An arc without X and Y." "RS274/NGC 3.5.3.2";
-    ArcRadiusMismatch "arc-radius-mismatch" Error Data clear "Ends of an arc at different distances from its centre, by more than the controller takes." "grbl 619 897, gnea/grbl 230 562 771, LaserGRBL 1674";
+    ArcRadiusMismatch "arc-radius-mismatch" Error Data guessed "Ends of an arc at different distances from its centre, by more than the controller takes." "grbl 619 897, gnea/grbl 230 562 771, LaserGRBL 1674";
     ArcImprecise "arc-imprecise" Warning Always clear "Ends of an arc at distances from its centre that differ by more than 0.002 mm." "RS274/NGC 3.5.3.2";
     ArcWrongPlane "arc-wrong-plane" Error Refused clear "A centre word that is not of the plane in force." "RS274/NGC 3.5.3.2";
     ArcOtherPlane "arc-other-plane" Warning Always clear "An arc outside of the XY plane." "this reader";
     ArcRadiusForm "arc-radius-form" Warning Always clear "An arc given by its radius: near a half circle rounding moves its centre far." "RS274/NGC 3.5.3.1";
-    ArcRadiusTooSmall "arc-radius-too-small" Error Data clear "An arc whose ends are farther apart than twice its R." "RS274/NGC 3.5.3.1";
-    ArcRadiusClosed "arc-radius-closed" Error Always clear "An arc given by its radius that ends where it starts." "RS274/NGC 3.5.3.1";
+    ArcRadiusTooSmall "arc-radius-too-small" Error Data guessed "An arc whose ends are farther apart than twice its R." "RS274/NGC 3.5.3.1";
+    ArcRadiusClosed "arc-radius-closed" Error Always guessed "An arc given by its radius that ends where it starts." "RS274/NGC 3.5.3.1";
     ArcEndEqualsStart "arc-end-equals-start" Warning Always clear "A full circle in the middle of a path: perhaps an arc whose rounded end equals its start." "a program never";
     // What the machine does.
     TravelBeforeLift "travel-before-lift" Error Always clear "XY motion before Z was moved: the tool may be anywhere." "a program always";
@@ -169,6 +183,13 @@ impl Rule {
     /// The entry of the table.
     pub fn info(self) -> &'static RuleInfo {
         &RULES[self as usize]
+    }
+
+    /// Whether the rule is about where the tool is, or how it gets there: who has lost the thread cannot judge that.
+    pub(super) fn is_about_places(self) -> bool {
+        (Rule::NoFeed..=Rule::FeedAfterToolChange).contains(&self)
+            || (Rule::ArcWithoutCenter..=Rule::FastPlunge).contains(&self)
+            || matches!(self, Rule::UnknownWay | Rule::ToolLeftDown | Rule::NoMotion)
     }
 
     /// Whether programs for `dialect` are held against the rule.

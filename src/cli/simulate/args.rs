@@ -69,7 +69,8 @@ pub(super) struct StockArgs {
     /// A box that no tool may enter, as x0,y0,x1,y1 or with the z of its top behind them; may be given more than once
     #[arg(long = "keepout", value_name = "BOX", allow_hyphen_values = true)]
     pub(super) keepouts: Vec<Keepout>,
-    /// Side of the cells of the height map [default: a fortieth of the smallest tool, or as many as are four million]
+    /// Side of the cells of the height map, at most a quarter of the smallest tool [default: a fortieth of it, or as many as are
+    /// four million]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub(super) cell: Option<Length>,
 }
@@ -102,7 +103,7 @@ pub(super) struct AgainstArgs {
     /// What of the drawing is x = 0, y = 0: corner or center of the part, or the drawing's own origin
     #[arg(long, value_name = "PLACE", default_value = "corner", requires = "against")]
     pub(super) origin: Origin,
-    /// z that the cut must reach [default: the deepest cut]
+    /// z that the cut must reach [default: the deepest cut sideways, or the lower face of --stock]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "against")]
     pub(super) floor: Option<Length>,
 }

@@ -7,10 +7,8 @@ use anyhow::Result;
 use serde_json::json;
 
 use crate::cam::{Against, CutLevel, Event, Gouge, Side, Simulation, Stock, ToolTable};
-
-/// Deeper cuts into the part than this, in millimetres, are a finding: programs of others follow curves by lines that may
-/// stray by as much.
-const GOUGE_LIMIT: f64 = 0.01;
+use crate::cli::report::GOUGE_LIMIT;
+use crate::gcode::Finding;
 
 /// Events and places named in words; JSON has them all.
 const SHOWN: usize = 12;
@@ -21,18 +19,27 @@ pub(super) struct SimulateReport<'a> {
     pub(super) tools: &'a ToolTable,
     /// The numbers of the tools that cut.
     pub(super) used: Vec<u32>,
+    /// The numbers of tools that were given and do not move.
+    pub(super) unknown_to_program: Vec<u32>,
     pub(super) stock_is_given: bool,
     pub(super) simulation: &'a Simulation,
+    /// What of the program could not be followed as it is written.
+    pub(super) guesses: &'a [Finding],
     pub(super) levels: &'a [CutLevel],
     pub(super) against: Option<&'a Against>,
+    /// z that the cut must reach.
+    pub(super) floor: f64,
     pub(super) side: Side,
     pub(super) written: &'a [PathBuf],
 }
 
 impl SimulateReport<'_> {
-    /// Whether nothing was found that should not be. Leftovers are told, but programs may leave them to another.
+    /// Whether nothing was found that should not be. What a round tool leaves in corners is told, but must be.
     pub(super) fn is_clean(&self) -> bool {
-        self.simulation.events.is_empty() && !self.gouge().is_some_and(|g| g.depth_mm > GOUGE_LIMIT)
+        self.simulation.events.is_empty()
+            && self.guesses.is_empty()
+            && self.against.is_none_or(|against| against.left.is_empty())
+            && !self.gouge().is_some_and(|g| g.depth_mm > GOUGE_LIMIT)
     }
 
     fn gouge(&self) -> Option<Gouge> {
@@ -57,6 +64,7 @@ impl SimulateReport<'_> {
         let value = json!({
             "program": self.input,
             "tools": tools,
+            "tools_not_in_program": self.unknown_to_program,
             "stock": map.stock(),
             "stock_is_given": self.stock_is_given,
             "cell_mm": map.cell(),
@@ -64,9 +72,11 @@ impl SimulateReport<'_> {
             "removed_mm3": removed_mm3,
             "time": time,
             "total_seconds": time.total_seconds(),
+            "findings": self.guesses,
             "events": events,
             "levels": self.levels,
             "against": self.against,
+            "floor_mm": self.against.map(|_| self.floor),
             "gouge_limit_mm": GOUGE_LIMIT,
             "clean": self.is_clean(),
             "written": self.written,
@@ -99,6 +109,9 @@ impl SimulateReport<'_> {
                 line("tool", format!("{number}: {}", tool.title()));
             }
         }
+        for number in &self.unknown_to_program {
+            line("note", format!("--tool {number}: the program has no tool {number}, and this one is not used"));
+        }
         self.operation_lines(&mut line);
         line(
             "time",
@@ -114,13 +127,26 @@ impl SimulateReport<'_> {
             line("level", format!("z {:.3}: {:.2} mm2 cut", level.z_mm, level.area_mm2));
         }
         self.against_lines(&mut line);
+        for finding in self.guesses.iter().take(SHOWN) {
+            line("FOUND", format!("line {}: {} [{}]", finding.line, finding.message, finding.rule));
+        }
+        if self.guesses.len() > SHOWN {
+            line("", format!("and {} more like these (--format json lists all)", self.guesses.len() - SHOWN));
+        }
+        if !self.guesses.is_empty() {
+            line(
+                "",
+                "these lines are not as a machine runs them: what stands above and in the picture is a guess"
+                    .to_owned(),
+            );
+        }
         for event in events.iter().take(SHOWN) {
             line("FOUND", describe(event));
         }
         if events.len() > SHOWN {
             line("", format!("and {} more (--format json lists all)", events.len() - SHOWN));
         }
-        if events.is_empty() {
+        if events.is_empty() && self.guesses.is_empty() && self.is_clean() {
             line("found", "nothing".to_owned());
         }
         if !self.written.is_empty() {
@@ -170,6 +196,24 @@ impl SimulateReport<'_> {
                 line(label, format!("{what}{depth:.4} mm with the centre at {at} ({verdict} {GOUGE_LIMIT} mm)"));
             }
             _ => line(label, "none".to_owned()),
+        }
+        for left in against.left.iter().take(SHOWN) {
+            let (x, y, length) = (left.x_mm, left.y_mm, left.length_mm);
+            let apart = left.depth_mm.map_or(String::new(), |d| format!(", {d:.3} mm from the cut"));
+            let what = match left.is_whole_outline {
+                true => format!(
+                    "the outline around ({x:.3}, {y:.3}), {length:.1} mm long, is cut nowhere down to z {:.3}",
+                    self.floor
+                ),
+                false => format!(
+                    "{length:.1} mm of an outline, at ({x:.3}, {y:.3}), are not cut down to z {:.3}{apart}",
+                    self.floor
+                ),
+            };
+            line("NOT CUT", what);
+        }
+        if against.left.len() > SHOWN {
+            line("", format!("and {} more (--format json lists all)", against.left.len() - SHOWN));
         }
         if let Some(uncut) = &against.uncut {
             let places = uncut.places.len();

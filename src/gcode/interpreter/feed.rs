@@ -34,11 +34,12 @@ impl Interpreter<'_> {
         let feed = match self.feed_mode {
             // F is one over the minutes that the motion takes, and holds for its line only.
             Some(FeedMode::InverseTime) => block.value('F').map(|f| f * length),
+            Some(FeedMode::PerTurn) => self.feed.map(|f| f * self.spindle_speed),
             _ => self.feed,
         };
         let missing = match self.feed_mode {
             Some(FeedMode::InverseTime) => block.value('F').is_none_or(|f| f <= 0.0),
-            _ => self.feed.is_none_or(|f| f <= 0.0),
+            _ => feed.is_none_or(|f| f <= 0.0),
         };
         if missing {
             self.find(Rule::NoFeed, "");

@@ -41,8 +41,14 @@ impl Interpreter<'_> {
         }
         let is_expression = |text: &str| text.contains(['#', '[', ']', '=']);
         let code = line.split(['(', ';']).next().unwrap_or("");
+        let is_flow = code.trim_start().starts_with(['o', 'O']);
         for fault in &block.faults {
             match fault {
+                // Flow control is a word O with something behind its number.
+                Fault::BadNumber(_) | Fault::Unknown(_) if dialect.expressions && (is_expression(code) || is_flow) => {
+                    self.find(Rule::NotFollowed, excerpt(code.trim()));
+                    break;
+                }
                 Fault::BadNumber(_) | Fault::Unknown(_) if is_expression(code) => {
                     self.find(Rule::Expression, excerpt(code.trim()));
                     break;
