@@ -103,7 +103,7 @@ mod tests {
             assert!(Decimal::of(value, 4).is_none(), "{value}");
         }
         assert_eq!(Decimal::of(2.4, 0).unwrap().to_string(), "2");
-        assert_eq!(Decimal::of(1200.123_456, 6).unwrap().to_string(), "1200.123456");
+        assert_eq!(Decimal::of(1_200.123_456, 6).unwrap().to_string(), "1200.123456");
         assert_eq!(Decimal::of(-100_000.0, 6).unwrap().to_string(), "-100000");
     }
 
