@@ -132,3 +132,28 @@ fn sorting_by_tool_keeps_a_rest_behind_what_it_rests_on() {
         json["operations"].as_array().unwrap().iter().map(|o| o["check"]["label"].as_str().unwrap()).collect();
     assert_eq!(labels, ["first", "coarse", "fine"]);
 }
+
+#[test]
+fn shapes_that_lie_wholly_on_others_are_told() {
+    let drawing = r##"<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
+<rect x="5" y="5" width="40" height="30"/><circle id="white" cx="20" cy="20" r="5" fill="#fff"/></svg>"##;
+    let job = format!("{HEAD}[[operation]]\nkind = \"profile\"\ntool = 2\ndepth = 1\n");
+    let (text, _, code) = mill(drawing, &job);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("the shape around (15.000, 15.000) lies wholly on another one"), "{text}");
+    let (text, _, code) = mill(drawing, &format!("{job}select = {{ order = 1 }}\n"));
+    assert!(code == Some(0) && !text.contains("wholly"), "{text}");
+}
+
+#[test]
+fn a_stroked_circle_in_a_stroked_rectangle_is_a_hole() {
+    let drawing = r##"<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
+<g fill="none" stroke="#000"><rect x="5" y="5" width="40" height="30"/><circle cx="20" cy="20" r="5"/></g></svg>"##;
+    let job = format!("{HEAD}[[operation]]\nkind = \"profile\"\ntool = 2\ndepth = 0.75\nentry = \"plunge\"\n");
+    let (text, json, code) = mill(drawing, &job);
+    assert_eq!(code, Some(0), "{text}");
+    // Both outlines: around the plate, 1.5 mm longer on every side, and inside of the hole.
+    let cut = json["operations"][0]["cut_mm"].as_f64().unwrap_or_else(|| panic!("{json}"));
+    let expected = 140.0 + std::f64::consts::TAU * (0.75 + 4.25);
+    assert!((cut - expected).abs() < 1.0, "{cut} of {expected}");
+}

@@ -48,6 +48,8 @@ pub enum Notice {
     CornerSkipped(Point),
     /// A flat bottom is cleared with the tip, in paths so far apart.
     BottomCleared(f64),
+    /// A shape with its middle here lies wholly on another one and changes nothing.
+    Covered(Point),
     /// A shape with its middle here is no circle and is not drilled.
     NotRound(Point),
     /// The circle here, of this diameter, is wider than the drill: the hole comes out as wide as the drill.

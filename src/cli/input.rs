@@ -11,7 +11,7 @@ use crate::gcode::Dialect;
 use crate::io::svg::{
     self, Curves, DEFAULT_FLATTEN, Drawing, Page, Parts, ReadOptions, Selection, Shapes, Strokes, Warning,
 };
-use crate::plane::{Region, Stretch};
+use crate::plane::{Point, Region, Stretch};
 use crate::units::{DrawingScale, Length};
 
 /// Files larger than this are read by no command.
@@ -249,6 +249,13 @@ impl ReadArgs {
         let bytes = read_bytes(path)?;
         let drawing = svg::read_alike(&bytes, &self.options()?, other).with_context(|| path.display().to_string())?;
         Ok(Self::with_warnings(path, drawing))
+    }
+
+    /// The middles of shapes that lie wholly on others, in user units; of a drawing that has been read, so that errors and warnings
+    /// have been told.
+    pub(super) fn covered(&self, path: &Path) -> Vec<Point> {
+        let read = || svg::read_shapes(&read_bytes(path).ok()?, &self.options().ok()?).ok();
+        read().map_or_else(Vec::new, |shapes| shapes.covered(&(0..shapes.shapes.len()).collect::<Vec<_>>()))
     }
 
     /// What is to be known of the scale of a drawing for a machine: a size without a unit is often meant in millimetres.

@@ -98,6 +98,13 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     if let Some(note) = args.reading.scale_note(&drawing.page) {
         output::say(&format!("clopen: {name}: {note}\n"));
     }
+    for p in args.reading.covered(&args.input) {
+        output::say(&format!(
+            "clopen: {name}: the shape around ({:.3}, {:.3}) of the drawing, y up, lies wholly on another one and changes nothing: a hole is \
+             drawn as part of the same path, with fill-rule=\"evenodd\"\n",
+            p.x, p.y
+        ));
+    }
     let settings = read_settings(args, &drawing, &target)?;
     let job = &settings.job;
     let part = drawing.region.scaled(mm_per_unit);

@@ -21,6 +21,24 @@ impl Region {
     }
 }
 
+impl Region {
+    /// Whether the solid of `other` lies in the solid of this one, judged as in [`overlaps`](Region::overlaps).
+    pub fn covers(&self, other: &Region) -> bool {
+        if self.is_empty() || other.is_empty() {
+            return other.is_empty();
+        }
+        let index = BoundaryIndex::new(self);
+        let tolerance = ON_BOUNDARY * self.bounds().union(other.bounds()).diagonal();
+        let is_in = |p: Point| index.winding_number(p) > 0 || index.is_nearer(p, tolerance);
+        let others = BoundaryIndex::new(other);
+        // A hole of this one in the middle of the other is seen from its own boundary.
+        let is_in_other = |p: Point| others.winding_number(p) > 0 && !others.is_nearer(p, tolerance);
+        is_in(inscribed_circle(other).center)
+            && other.segments().all(|s| is_in(s.start) && is_in(s.point_at(0.5)))
+            && !self.segments().any(|s| is_in_other(s.start) || is_in_other(s.point_at(0.5)))
+    }
+}
+
 fn reaches_into(one: &Region, other: &Region, tolerance: f64) -> bool {
     let index = BoundaryIndex::new(other);
     let is_inside = |p: Point| index.winding_number(p) > 0 && !index.is_nearer(p, tolerance);
@@ -50,6 +68,8 @@ mod tests {
         let mut ring = square(-1.0, 3.0);
         ring.rings.extend(square(-0.5, 2.0).reversed().rings);
         assert!(!ring.overlaps(&unit));
+        assert!(!ring.covers(&unit) && !unit.covers(&ring));
+        assert!(unit.covers(&unit) && square(-1.0, 3.0).covers(&ring) && !ring.covers(&square(-1.0, 3.0)));
         assert!(!unit.overlaps(&Region::default()));
     }
 }

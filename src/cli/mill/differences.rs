@@ -180,6 +180,9 @@ impl Cut {
                 Notice::LeadShortened(p, radius) => {
                     (p, "lead", format!("a radius of {radius:.3} mm"), "no room for a larger arc", "a smaller lead")
                 }
+                Notice::Covered(p) => {
+                    (p, "shape", "nothing".to_owned(), "it lies wholly on another one", "a hole of that shape")
+                }
                 Notice::NotRound(p) => {
                     (p, "shape", "not drilled".to_owned(), "it is no circle", "a pocket, or another select")
                 }

@@ -10,8 +10,8 @@ use super::setup_report::SetupReport;
 use super::setup_saved::time_saved;
 use super::{FormatArg, MillArgs, Verdict, keep_page, setup_page, stock_edges, target};
 use crate::cam::{
-    self, Entry, Geometry, Hole, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder, Setup,
-    SetupFile, Side, Step, check_amount, check_operation, plan_operation, split_operations,
+    self, Entry, Geometry, Hole, Notice, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder,
+    Setup, SetupFile, Side, Step, check_amount, check_operation, plan_operation, split_operations,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::cli::{ExitStatus, input, output};
@@ -93,7 +93,11 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     for operation in &setup.operations {
         let geometry = drawn(operation, &holes).with_context(|| place(operation))?;
         check_amount(&setup, operation, &geometry).with_context(|| place(operation))?;
-        let plan = plan_operation(&setup, operation, &geometry).with_context(|| place(operation))?;
+        let mut plan = plan_operation(&setup, operation, &geometry).with_context(|| place(operation))?;
+        if !matches!(operation.kind, OperationKind::Facing { .. }) {
+            let covered = shapes.covered(&select(&shapes, &operation.select)?);
+            plan.notices.extend(covered.into_iter().map(|p| Notice::Covered(p * mm_per_unit + shift)));
+        }
         holes.extend(&plan.holes);
         planned.push(plan);
     }
@@ -102,7 +106,7 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     let done = hold_against(&setup, &dialect, planned, &written)?;
     let mut unsafe_travel = beyond_travel(&setup, &written);
     unsafe_travel.extend(collisions(&setup, &written));
-    let beyond_stock = stock_edges::beyond(&setup, file.stock.zero.unwrap_or(cam::DEFAULT_ORIGIN), &done);
+    let beyond_stock = stock_edges::beyond(&setup, setup.stock.zero, &done);
     let saved = time_saved(&setup, &dialect, options, &done, &written, &drawn);
 
     let mut contents: Vec<(PathBuf, Vec<u8>)> =

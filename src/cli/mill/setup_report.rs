@@ -239,6 +239,11 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
             Notice::LeadShortened(p, radius) => {
                 notes.push(format!("the lead at {} has room for a radius of {radius:.3} mm only", at(p)))
             }
+            Notice::Covered(p) => failures.push(format!(
+                "the shape around {} lies wholly on another one and changes nothing: draw it as a hole of that shape (one path, \
+                 fill-rule=\"evenodd\"), give it an operation of its own, or leave it out of select",
+                at(p)
+            )),
             Notice::NotRound(p) => failures.push(format!(
                 "the shape around {} is no circle and is not drilled: leave it out of select, or cut it with a pocket",
                 at(p)

@@ -11,7 +11,7 @@ use super::gather::{Gathered, gather};
 use super::options::{ReadOptions, Strokes};
 use super::viewport::Page;
 use crate::io::unite::{self, Rule};
-use crate::plane::{Bounds, Region, Ring};
+use crate::plane::{Bounds, Point, Region, Ring};
 use crate::units::DrawingScale;
 
 /// The namespace of Inkscape's attributes, which name its layers.
@@ -82,23 +82,36 @@ impl Shapes {
         rings.fold(Bounds::EMPTY, |b, ring| b.union(ring.bounds()))
     }
 
-    /// What the shapes with these indices fill, united. A shape that fills nothing counts with the closed lines that it
-    /// strokes, by the even-odd rule: drawings for machines often have no fills.
+    /// What the shapes with these indices fill, united. Shapes that fill nothing count with the closed lines that they
+    /// stroke, all of them together by the even-odd rule: drawings for machines often have no fills, and a circle in a
+    /// rectangle is a hole there.
     pub fn united(&self, which: &[usize]) -> Region {
-        let area = |shape: &DrawnShape| {
-            if !shape.area.is_empty() {
-                return shape.area.rings.clone();
-            }
-            let closed = shape.lines.iter().filter(|l| l.is_closed).map(|l| l.ring.clone());
-            unite::resolve(closed.collect(), Rule::EvenOdd)
-        };
-        let mut areas: Vec<Vec<Ring>> = which.iter().filter_map(|&k| self.shapes.get(k)).map(area).collect();
+        let chosen = || which.iter().filter_map(|&k| self.shapes.get(k));
+        let stroked = chosen().filter(|shape| shape.area.is_empty()).flat_map(|shape| &shape.lines);
+        let closed: Vec<Ring> = stroked.filter(|line| line.is_closed).map(|line| line.ring.clone()).collect();
+        let mut areas: Vec<Vec<Ring>> = chosen().map(|shape| shape.area.rings.clone()).collect();
+        areas.push(unite::resolve(closed, Rule::EvenOdd));
         areas.retain(|rings| !rings.is_empty());
         match areas.len() {
             0 => Region::default(),
             1 => Region::new(areas.remove(0)),
             _ => Region::new(unite::resolve(areas.concat(), Rule::AtLeast(1))),
         }
+    }
+
+    /// The middles of those of the shapes with these indices that lie wholly on what another one fills: united they change
+    /// nothing. Of equal shapes it is the later ones.
+    pub fn covered(&self, which: &[usize]) -> Vec<Point> {
+        let filled: Vec<&DrawnShape> =
+            which.iter().filter_map(|&k| self.shapes.get(k)).filter(|shape| !shape.area.is_empty()).collect();
+        let bounds: Vec<Bounds> = filled.iter().map(|shape| shape.area.bounds()).collect();
+        let lies_on = |k: usize, j: usize| {
+            let (inner, outer) = (&filled[k].area, &filled[j].area);
+            let is_smaller = inner.area() < outer.area() || (inner == outer && j < k);
+            is_smaller && bounds[j].union(bounds[k]) == bounds[j] && outer.covers(inner)
+        };
+        let is_covered = |k: &usize| (0..filled.len()).any(|j| j != *k && lies_on(*k, j));
+        (0..filled.len()).filter(is_covered).map(|k| bounds[k].center()).collect()
     }
 
     /// What lengths typed for the drawing are measured by.

@@ -75,6 +75,12 @@ impl Resolver<'_> {
             );
         }
         let final_pass = self.above_zero(place("final-pass"), file.final_pass);
+        if let Some(last) = final_pass.filter(|last| *last > depth_per_pass) {
+            self.at(
+                place("final-pass"),
+                format!("the final pass is {last} mm, more than depth-per-pass, {depth_per_pass} mm"),
+            );
+        }
         if final_pass.is_some_and(|last| last >= depth - start_depth) {
             self.at(
                 place("final-pass"),
