@@ -168,7 +168,7 @@ fn a_key_that_means_nothing_for_its_kind_is_refused_with_the_kinds_that_take_it(
 #[test]
 fn what_defaults_and_tools_say_is_no_key_of_the_operation() {
     let (text, code) =
-        mill(&format!("{HEAD}[[operation]]\nkind = \"drill\"\ntool = 4\nthrough = true\nselect = {{ id = \"c\" }}\n"));
+        mill(&format!("{HEAD}[[operation]]\nkind = \"drill\"\ntool = 1\nthrough = true\nselect = {{ id = \"c\" }}\n"));
     assert_eq!(code, Some(0), "{text}");
 }
 
@@ -215,7 +215,7 @@ fn a_spindle_speed_beyond_the_machine_is_refused_where_it_is_said() {
     let (text, code) = mill(&format!("{slow}{profile}"));
     assert_eq!(code, Some(2), "{text}");
     assert!(text.contains("line 12: spindle-speed is 18000") && text.contains("12000"), "{text}");
-    let (text, code) = mill(&format!("{slow}{profile}spindle-speed = 12000\n"));
+    let (text, code) = mill(&format!("{slow}{profile}spindle-speed = 12000\nselect = {{ id = \"a\" }}\n"));
     assert_eq!(code, Some(0), "{text}");
     let (text, _) = mill(&format!("{slow}{profile}spindle-speed = 12001\n"));
     assert!(text.contains("line 37: spindle-speed is 12001"), "{text}");

@@ -78,9 +78,12 @@ mod tests {
         let mut strands = Strands::default();
         strands.add(0, &square(0.0, 10.0));
         assert!(!strands.pass(Point::new(5.0, 0.0), 0, 5.0, 4.0));
-        // The opposite side is ten away.
-        assert!(!strands.pass(Point::new(5.0, 0.0), 0, 5.0, 9.9));
-        assert!(strands.pass(Point::new(5.0, 0.0), 0, 5.0, 10.1));
+        // The side of a long rectangle comes back ten away from the other one, behind way enough.
+        let corners = [(200.0, 0.0), (230.0, 0.0), (230.0, 10.0), (200.0, 10.0)];
+        let long: Vec<Segment> = Ring::polygon(corners.map(|(x, y)| Point::new(x, y))).segments().collect();
+        strands.add(4, &long);
+        assert!(!strands.pass(Point::new(215.0, 0.0), 4, 15.0, 9.9));
+        assert!(strands.pass(Point::new(215.0, 0.0), 4, 15.0, 10.1));
         strands.add(1, &square(12.0, 10.0));
         assert!(!strands.pass(Point::new(10.0, 5.0), 0, 15.0, 1.9));
         assert!(strands.pass(Point::new(10.0, 9.0), 0, 19.0, 4.0));
