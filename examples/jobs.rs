@@ -26,6 +26,9 @@ const GOUGE_LIMIT: f64 = 0.002;
 /// Cells along the longer side of the stock.
 const CELLS: f64 = 300.0;
 
+/// Cells at least so fine, in tool diameters: coarser ones do not show what the tool does.
+const FINEST: f64 = 0.24;
+
 /// Below the stock tools may go into the board by this much, in millimetres.
 const SPOIL: f64 = 1.0;
 
@@ -121,11 +124,11 @@ fn run(number: u64, is_loud: bool) -> Result<bool, String> {
 /// Runs the program on a block of stock.
 fn rapids(setup: &Setup, program: &clopen::cam::Program, text: &str) -> Result<bool, String> {
     let used = setup.tool_of(&setup.operations[0]).clone();
-    let tools = ToolTable::gather(&[used], program);
+    let tools = ToolTable::gather(std::slice::from_ref(&used), program);
     let Some(cuts) = Stock::of_cuts(program, &tools, 0.0) else { return Ok(true) };
     let stock = Stock { bottom_mm: -6.0, ..cuts };
     let outline = stock.outline();
-    let cell = outline.width().max(outline.height()) / CELLS;
+    let cell = (outline.width().max(outline.height()) / CELLS).min(FINEST * used.diameter);
     let machine = Machine::default();
     let options = SimulateOptions { stock, cell, keepouts: Vec::new(), spoil: SPOIL, machine };
     let simulation = simulate(program, &tools, &options).map_err(|e| e.to_string())?;

@@ -256,12 +256,12 @@ fn what_the_controller_answers_is_refused_by_its_own_file_and_line_and_is_never_
         }
     }
     // The second program of a job, and a profile without operations, keep them as well.
-    write("x-t2.nc", "$30=24000\n");
-    let two = fs::read_to_string(folder.path().join("job.toml")).unwrap().replace("grbl.txt", "x-t2.nc");
+    write("x-2-t2.nc", "$30=24000\n");
+    let two = fs::read_to_string(folder.path().join("job.toml")).unwrap().replace("grbl.txt", "x-2-t2.nc");
     write("job.toml", &format!("{two}[[operation]]\nkind = \"profile\"\ntool = 2\ndepth = 1\n"));
     let (text, code) = run(&["-o", "x.nc"]);
     assert_eq!(code, Some(2), "{text}");
-    assert_eq!(fs::read_to_string(folder.path().join("x-t2.nc")).unwrap(), "$30=24000\n", "{text}");
+    assert_eq!(fs::read_to_string(folder.path().join("x-2-t2.nc")).unwrap(), "$30=24000\n", "{text}");
     let output = clopen(folder.path(), &["mill", "a.svg", "--dialect", "my.toml", "-o", "my.toml", "--no-preview"]);
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
     assert_eq!(fs::read_to_string(folder.path().join("my.toml")).unwrap(), "base = \"grbl\"\n");

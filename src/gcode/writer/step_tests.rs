@@ -73,7 +73,7 @@ fn without_a_tool_changer_every_tool_gets_its_program() {
     assert_eq!(error, WriteError::NoToolChange { dialect: "grbl".into(), count: 2 });
     let files = write_files(&steps, &["job".into()], &GRBL, MM).unwrap();
     let suffixes: Vec<&str> = files.iter().map(|f| f.suffix.as_str()).collect();
-    assert_eq!(suffixes, ["-t1", "-t2", "-t1-2"]);
+    assert_eq!(suffixes, ["-1-t1", "-2-t2", "-3-t1"]);
     for (file, of) in files.iter().zip(["1 of 3", "2 of 3", "3 of 3"]) {
         assert!(file.text.starts_with(&format!("(job)\n(program {of})\n")), "{}", file.text);
         assert!(file.text.ends_with("M5\nM30\n") && !file.text.contains("M6"), "{}", file.text);

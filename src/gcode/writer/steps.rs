@@ -8,7 +8,7 @@ use crate::gcode::{Dialect, Units};
 /// One of the programs of a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProgramFile {
-    /// What is added to the name of the job's file: nothing, or `-t2` for the program of tool 2.
+    /// What is added to the name of the job's file: nothing, or `-3-t2` for the third program, of tool 2: by name they sort as they are run.
     pub suffix: String,
     /// The program.
     pub text: String,
@@ -80,13 +80,10 @@ pub fn write_files(
     let mut files: Vec<ProgramFile> = Vec::new();
     for (index, run) in runs.iter().enumerate() {
         let number = run[0].tool.number;
-        // A tool that comes again gets a second file, and so on.
-        let before = runs[..index].iter().filter(|r| r[0].tool.number == number).count();
-        let again = if before == 0 { String::new() } else { format!("-{}", before + 1) };
         let mut head = header.to_vec();
         head.push(format!("program {} of {}", index + 1, runs.len()));
         files.push(ProgramFile {
-            suffix: format!("-t{number}{again}"),
+            suffix: format!("-{}-t{number}", index + 1),
             text: write_steps(run, &head, dialect, options)?,
         });
     }
