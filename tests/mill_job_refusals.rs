@@ -176,6 +176,8 @@ fn what_defaults_and_tools_say_is_no_key_of_the_operation() {
 fn values_that_no_tool_and_no_machine_has_are_refused() {
     refused(&[
         ("kind = \"profile\"\ntool = 1\ndepth = 5\nfinal-pass = 10", "final-pass", "as thick as the cut is deep"),
+        ("kind = \"profile\"\ntool = 1\ndepth = 5\nfinal-pass = 4", "final-pass", "more than depth-per-pass"),
+        ("kind = \"profile\"\ntool = 1\ndepth = 2\nallowance = 2", "allowance", "more than the radius"),
         ("kind = \"pocket\"\ntool = 1\ndepth = 8.1", "depth = 8.1", "the stock is 6 mm thick"),
         ("kind = \"profile\"\ntool = 3\ndepth = 2", "tool = 3", "use it to v-carve, chamfer or engrave"),
         ("kind = \"profile\"\ntool = 1\ndepth = 2\nspindle-speed = 0.001", "spindle-speed = 0", "at least 0.1"),

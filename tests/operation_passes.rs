@@ -116,6 +116,9 @@ fn tabs_stand_after_roughing_and_finishing() {
     let planned = plan_operation(&setup, &setup.operations[0], &geometry).unwrap();
     assert_eq!(planned.tabs.len(), 4);
     let program = program(text, SQUARE);
+    // Between them both go down to the floor.
+    let at_floor = program.motions.iter().filter(|m| m.from.z == -6.2 && m.to.z == -6.2);
+    assert!(at_floor.map(Motion::length).sum::<f64>() > 2.0 * 100.0);
     for tab in &planned.tabs {
         // They stand on the bottom of the stock, not on the floor of the cut.
         assert_eq!(tab.top, -4.0);

@@ -5,7 +5,7 @@ use super::walk::Walk;
 use super::{TabPlaces, Tabs};
 use crate::plane::{Link, Point, Segment};
 
-/// Length of a tab's flank in heights of the tab: its steepest place, in the middle, then has 45 degrees.
+/// Length of a tab's flank in heights of the tab over the floor: its steepest place, in the middle, then has 45 degrees.
 const FLANK: f64 = 1.5;
 
 /// Straight pieces of a flank: the polygon keeps within 1 % of the tab's height of the smooth curve.
@@ -32,6 +32,8 @@ const NECK: [f64; 2] = [0.25, 0.1];
 pub(super) struct Ground<'a> {
     /// z of what they stand on.
     pub base: f64,
+    /// z of the floor of the cut, below that where it goes through the stock.
+    pub floor: f64,
     /// Diameter of the tool.
     pub tool_diameter: f64,
     /// How far from the start of a path, in millimetres, its tabs begin.
@@ -43,6 +45,11 @@ pub(super) struct Ground<'a> {
 }
 
 impl Ground<'_> {
+    /// How far the tool goes down from the top of a tab.
+    fn fall(&self, tabs: &Tabs) -> f64 {
+        self.base + tabs.height - self.floor
+    }
+
     /// Half the length over which the tool stays up.
     fn plateau(&self, tabs: &Tabs) -> f64 {
         0.5 * (tabs.width + self.tool_diameter)
@@ -61,8 +68,8 @@ pub(super) struct TabLine {
     plateau: f64,
     /// z of the tool over a tab.
     top: f64,
-    /// Height of a tab.
-    height: f64,
+    /// How far the tool goes down from there to the floor of the cut.
+    fall: f64,
     /// Length of the path.
     length: f64,
 }
@@ -95,13 +102,13 @@ impl TabLine {
         for middle in &self.middles {
             let apart = (way - middle).rem_euclid(self.length);
             let distance = apart.min(self.length - apart) - self.plateau;
-            let flank = FLANK * self.height;
+            let flank = FLANK * self.fall;
             if distance <= 0.0 {
                 return self.top;
             }
             if distance < flank {
                 let t = distance / flank;
-                lowest = lowest.max(self.top - self.height * t * t * (3.0 - 2.0 * t));
+                lowest = lowest.max(self.top - self.fall * t * t * (3.0 - 2.0 * t));
             }
         }
         lowest
@@ -109,7 +116,7 @@ impl TabLine {
 
     /// The first place from `way` on that is at least `margin` off every tab; none where the tabs leave no such place.
     pub(super) fn clear_from(&self, way: f64, margin: f64) -> Option<f64> {
-        let reach = self.plateau + FLANK * self.height + margin;
+        let reach = self.plateau + FLANK * self.fall + margin;
         let apart = |way: f64, middle: f64| {
             let ahead = (middle - way).rem_euclid(self.length);
             ahead.min(self.length - ahead)
@@ -128,7 +135,7 @@ impl TabLine {
     /// The places between `from` and `from + length` where the way over the tabs bends, in order.
     pub(super) fn bends(&self, from: f64, length: f64) -> Vec<f64> {
         let mut bends = Vec::new();
-        let flank = FLANK * self.height;
+        let flank = FLANK * self.fall;
         for middle in &self.middles {
             let offsets = (0..=FLANK_PIECES).map(|k| self.plateau + flank * (k as f64 / FLANK_PIECES as f64));
             for offset in offsets.flat_map(|o| [-o, o]) {
@@ -147,7 +154,7 @@ impl TabLine {
     /// what they would hold on to.
     pub(super) fn place(tabs: &Tabs, walk: &Walk, path: usize, ground: &Ground) -> Placed {
         let length = walk.length();
-        let reach = ground.plateau(tabs) + FLANK * tabs.height;
+        let reach = ground.plateau(tabs) + FLANK * ground.fall(tabs);
         let wanted: Vec<f64> = match &tabs.places {
             TabPlaces::Count(count) => evenly(*count, length),
             TabPlaces::Spacing(spacing) => evenly(((length / spacing).round() as usize).max(2), length),
@@ -207,7 +214,7 @@ impl TabLine {
             middles: Vec::new(),
             plateau: ground.plateau(tabs),
             top: ground.base + tabs.height,
-            height: tabs.height,
+            fall: ground.fall(tabs),
             length: walk.length(),
         }
     }
@@ -264,7 +271,12 @@ mod tests {
     fn place(tabs: &Tabs, walk: &Walk, tool_diameter: f64, seam: f64) -> Placed {
         let mut strands = Strands::default();
         strands.add(0, walk.segments());
-        TabLine::place(tabs, walk, 0, &Ground { base: -6.0, tool_diameter, allowance: 0.0, seam, strands: &strands })
+        TabLine::place(
+            tabs,
+            walk,
+            0,
+            &Ground { base: -6.0, floor: -6.0, tool_diameter, allowance: 0.0, seam, strands: &strands },
+        )
     }
 
     #[test]

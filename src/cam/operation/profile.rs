@@ -206,6 +206,7 @@ impl<'a> Cuts<'a> {
         };
         Ground {
             base: self.work.base,
+            floor: self.work.floor,
             tool_diameter: tool.diameter,
             seam: tool.radius() + beside,
             allowance: self.work.cutting.allowance,

@@ -111,6 +111,15 @@ impl Resolver<'_> {
             }
         };
         let allowance = self.zero_or_more(place("allowance"), file.allowance).unwrap_or(0.0);
+        if allowance > tool.radius() {
+            self.at(
+                place("allowance"),
+                format!(
+                    "allowance is {allowance} mm, more than the radius of the tool, {} mm: the finishing pass would stand in the full material",
+                    tool.radius()
+                ),
+            );
+        }
         let tabs = file.tabs.as_ref().and_then(|tabs| self.tabs(tabs, table, depth - start_depth, tool));
         let onion_skin = self.above_zero(place("onion-skin"), file.onion_skin);
         if onion_skin.is_some_and(|skin| skin >= depth - start_depth) {
