@@ -1,6 +1,6 @@
 //! What else of the paths passes near a place.
 
-use crate::plane::{Point, Segment};
+use crate::plane::{Bounds, Point, Segment};
 
 /// A path that comes back to a place has gone at least so many times as far as it is away from there: more than half a
 /// circle, and than the two sides of a corner of 60 degrees.
@@ -33,6 +33,13 @@ impl Strands {
             self.elements.push(Strand { segment, path, before, whole });
             before += segment.length();
         }
+    }
+
+    /// Those that may pass within `distance` of something in `bounds`.
+    pub(super) fn near(&self, bounds: Bounds, distance: f64) -> Strands {
+        let reached = bounds.inflated(distance);
+        let elements = self.elements.iter().filter(|strand| strand.segment.bounds().overlaps(&reached));
+        Strands { elements: elements.copied().collect() }
     }
 
     /// Whether another path, or the same path on its way back, is nearer than `distance` to `p`, which is on `path` at

@@ -3,7 +3,7 @@
 use super::strands::Strands;
 use super::walk::Walk;
 use super::{TabPlaces, Tabs};
-use crate::plane::{Link, Point, Segment};
+use crate::plane::{Bounds, Link, Point, Segment};
 
 /// Length of a tab's flank in heights of the tab over the floor: its steepest place, in the middle, then has 45 degrees.
 const FLANK: f64 = 1.5;
@@ -164,6 +164,8 @@ impl TabLine {
         };
         let mut placed = Placed { asked: wanted.len(), line: TabLine::empty(tabs, walk, ground), on_arcs: 0 };
         let half = placed.line.plateau;
+        let bounds = walk.segments().iter().fold(Bounds::EMPTY, |b, s| b.union(s.bounds()));
+        let strands = ground.strands.near(bounds, HOLD * ground.tool_diameter);
         let round = tight_stretches(walk.segments(), ROUND * ground.tool_diameter);
         let tight = tight_stretches(walk.segments(), TIGHT * ground.tool_diameter);
         for way in wanted {
@@ -175,7 +177,7 @@ impl TabLine {
                 clear(0.0, ground.seam)
                     && placed.line.middles.iter().all(|&m| clear(m, reach))
                     && !arcs.unwrap_or_default().iter().any(|&(a, b)| overlaps(at, half, a, b, length))
-                    && !ground.strands.pass(walk.point_at(at), path, at, HOLD * ground.tool_diameter)
+                    && !strands.pass(walk.point_at(at), path, at, HOLD * ground.tool_diameter)
                     && stays(
                         walk,
                         at,

@@ -21,7 +21,9 @@ mod surface_whole;
 
 pub use compare::compare;
 pub use differ::{Difference, Named, differences};
-pub use features::{LostFeature, SHALLOWEST_FILLING, SLOT_DEPTH, SLOT_FULLNESS, lost_features};
+pub use features::{
+    CORNER_DEPTH, CORNER_FULLNESS, LostFeature, SHALLOWEST_FILLING, SLOT_DEPTH, SLOT_FULLNESS, lost_features,
+};
 pub(crate) use report::finite_or_word;
 pub use report::{Area, Containment, Distance, Kept, Report, SmallestRadius, Topology};
 

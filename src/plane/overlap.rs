@@ -8,16 +8,22 @@ const ON_BOUNDARY: f64 = 1e-7;
 impl Region {
     /// Whether the solids share more than pieces of their boundaries.
     ///
-    /// Judged at the middle of the largest circle in each, and at the ends and middles of all elements: a corner that only
-    /// just reaches into the other region between two of its own may be missed where its elements cross both times far from
-    /// their middles.
+    /// Judged at the ends and middles of all elements, and, for regions whose boundaries agree, at the middle of the largest
+    /// circle in the simpler one: a corner that only just reaches into the other region between two of its own may be missed
+    /// where its elements cross both times far from their middles.
     pub fn overlaps(&self, other: &Region) -> bool {
         let bounds = (self.bounds(), other.bounds());
         if self.is_empty() || other.is_empty() || !bounds.0.overlaps(&bounds.1) {
             return false;
         }
         let tolerance = ON_BOUNDARY * bounds.0.union(bounds.1).diagonal();
-        reaches_into(self, other, tolerance) || reaches_into(other, self, tolerance)
+        let (simple, rich) = if self.vertex_count() <= other.vertex_count() { (self, other) } else { (other, self) };
+        let index = BoundaryIndex::new(rich);
+        let is_inside = |p: Point| index.winding_number(p) > 0 && !index.is_nearer(p, tolerance);
+        reaches_into(simple, is_inside) || is_inside(inscribed_circle(simple).center) || {
+            let index = BoundaryIndex::new(simple);
+            reaches_into(rich, |p| index.winding_number(p) > 0 && !index.is_nearer(p, tolerance))
+        }
     }
 }
 
@@ -39,10 +45,8 @@ impl Region {
     }
 }
 
-fn reaches_into(one: &Region, other: &Region, tolerance: f64) -> bool {
-    let index = BoundaryIndex::new(other);
-    let is_inside = |p: Point| index.winding_number(p) > 0 && !index.is_nearer(p, tolerance);
-    is_inside(inscribed_circle(one).center) || one.segments().any(|s| is_inside(s.start) || is_inside(s.point_at(0.5)))
+fn reaches_into(one: &Region, is_inside: impl Fn(Point) -> bool) -> bool {
+    one.segments().any(|s| is_inside(s.start) || is_inside(s.point_at(0.5)))
 }
 
 #[cfg(test)]
