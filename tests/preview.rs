@@ -1,7 +1,6 @@
 //! Pictures of a bracket and its program. With `CLOPEN_PICTURES=FOLDER` they are kept for looking at.
 
-use clopen::cam::Program;
-use clopen::cam::{CertifyOptions, certify};
+use clopen::cam::{CertifyOptions, Program, Tool, certify};
 use clopen::gcode::read;
 use clopen::plane::{Arc, Joint, Link, Point, Region, Ring, Turn, Vertex};
 use clopen::preview::{self, Scene};
@@ -91,7 +90,7 @@ fn a_bracket_and_its_program() {
         part: Some(&part),
         kept: Some(&kept),
         uncut: Some(&certificate.uncut),
-        tool_radius: Some(TOOL_RADIUS),
+        tools: &[Tool::flat(1, 2.0 * TOOL_RADIUS)],
         ..Scene::new(&program)
     };
     let png = preview::program(&scene, preview::DEFAULT_SIZE).unwrap();
@@ -108,7 +107,7 @@ fn a_bracket_and_its_program() {
         assert!(colours.contains(&colour), "nothing in the colour of {name}");
     }
 
-    let alone = Scene { tool_radius: Some(TOOL_RADIUS), ..Scene::new(&program) };
+    let alone = Scene { tools: &[Tool::flat(1, 2.0 * TOOL_RADIUS)], ..Scene::new(&program) };
     keep("program.png", &preview::program(&alone, 1000).unwrap());
 }
 
@@ -135,7 +134,7 @@ fn strokes_of_very_many_points() {
     assert_eq!(few.motions.len(), 4, "{:?}", few.motions);
     // Left of the circles there is nothing but the last line.
     let left_half = |program: &Program| {
-        let png = preview::program(&Scene { tool_radius: Some(0.5), ..Scene::new(program) }, 900).unwrap();
+        let png = preview::program(&Scene { tools: &[Tool::flat(1, 1.0)], ..Scene::new(program) }, 900).unwrap();
         let picture = tiny_skia::Pixmap::decode_png(&png).unwrap();
         let (w, h) = (picture.width() / 2, picture.height());
         (0..w).flat_map(|x| (0..h).map(move |y| (x, y))).map(|(x, y)| pixel(&picture, x, y)).collect::<Vec<_>>()

@@ -255,7 +255,9 @@ impl Laying<'_> {
         match self.entry {
             Entry::Ramp => ramp(),
             Entry::Helix => {
-                let radius = self.lead.unwrap_or(HELIX_RADIUS * 0.5 * self.tool_diameter);
+                // A wider one leaves a pin in its middle.
+                let widest = 0.5 * self.tool_diameter;
+                let radius = self.lead.map_or(HELIX_RADIUS * widest, |lead| lead.min(widest));
                 let found = self
                     .room
                     .as_ref()

@@ -1,8 +1,8 @@
 //! `clopen mill`: outlines to a program that was read back and checked before anyone is told that it is there.
 
 mod args;
+mod cut_free;
 mod differences;
-mod engaged;
 mod init;
 mod page;
 mod select;
@@ -11,17 +11,19 @@ mod setup_page;
 mod setup_report;
 mod setup_saved;
 mod stock_edges;
+mod travel;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, anyhow, bail};
 
 use super::check::FormatArg;
-use super::report::{MillReport, Verdict};
+use super::engaged::with_heights;
+use super::report::{MillReport, Verdict, gouges};
 use super::{ExitStatus, input, output};
 use crate::cam::{
     self, Certificate, CertifyOptions, Entry, Job, JobFile, Machine, OffsetError, PathRadius, PlanError, Program,
-    Remainder, SetupFile, Side, TimeSaved, Toolpath,
+    Remainder, SetupFile, Side, TimeSaved, Tool, Toolpath,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
@@ -32,7 +34,6 @@ use crate::reference::Operation;
 use crate::rolling::{self, Topology};
 use crate::units::Radius;
 pub(super) use args::MillArgs;
-use engaged::with_heights;
 
 /// What the flags and the job file say together.
 struct Settings {
@@ -112,7 +113,11 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let checked = check(args, &settings, &plan)?;
     let saved = time_saved(&settings, &part, &plan, &checked.program);
 
-    let mut contents = vec![(target.clone(), checked.text.clone().into_bytes())];
+    let gouges = gouges(checked.certificate.gouge.as_ref());
+    let mut contents = Vec::new();
+    if !gouges {
+        contents.push((target.clone(), checked.text.clone().into_bytes()));
+    }
     let drawn = if picture.is_some() || (args.html.is_some() && !args.no_preview) {
         Some(draw(job, &plan, &checked)?)
     } else {
@@ -134,6 +139,7 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
         accept_losses: args.accept_losses,
         saved: saved.as_ref(),
         written: &written,
+        withheld: Some(target.as_path()).filter(|_| gouges),
     };
     if let Some(html) = &args.html {
         let name = if target == Path::new("-") { "program".to_owned() } else { page::file_name(&target) };
@@ -329,7 +335,7 @@ fn draw(job: &Job, plan: &Plan, checked: &Checked) -> Result<Vec<u8>> {
         part: Some(&plan.part),
         kept: Some(&plan.kept),
         uncut: Some(&checked.certificate.uncut),
-        tool_radius: Some(0.5 * job.tool_diameter),
+        tools: &[Tool::flat(1, job.tool_diameter)],
         stock_top: job.stock_top,
     };
     preview::program(&scene, DEFAULT_SIZE).context("the picture cannot be drawn; --no-preview leaves it out")

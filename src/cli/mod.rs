@@ -3,6 +3,7 @@
 pub mod check;
 mod clopen;
 mod close;
+mod engaged;
 mod flow;
 mod font;
 mod input;

@@ -8,6 +8,7 @@ use clap::Args;
 use super::ExitStatus;
 use super::input::{self, ReadArgs};
 use super::output;
+use crate::cam::Tool;
 use crate::gcode;
 use crate::io::mesh::{self as files, MeshFormat};
 use crate::preview::{self, DEFAULT_SIZE, MeshStyle, Scene};
@@ -91,8 +92,8 @@ fn program(args: &PreviewArgs, bytes: Vec<u8>) -> Result<Vec<u8>> {
     if let Some(diameter) = typed.filter(|d| *d <= 0.0) {
         bail!("--tool-diameter is {diameter} mm: it must be above zero");
     }
-    let diameter = typed.or(program.tool_diameter());
-    let scene = Scene { tool_radius: diameter.map(|d| 0.5 * d), stock_top, ..Scene::new(&program) };
+    let tool = typed.or(program.tool_diameter()).map(|diameter| Tool::flat(1, diameter));
+    let scene = Scene { tools: tool.as_slice(), stock_top, ..Scene::new(&program) };
     preview::program(&scene, args.size).with_context(name)
 }
 

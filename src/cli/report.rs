@@ -7,7 +7,7 @@ use anyhow::Result;
 use serde_json::json;
 
 use super::time_words::{minutes, sharp, time_saved};
-use crate::cam::{Certificate, Job, Side, TimeSaved};
+use crate::cam::{Certificate, Gouge, Job, Side, TimeSaved};
 use crate::check::{LostFeature, Place};
 use crate::gcode::{Arcs, Finding, Severity, Units, WriteOptions};
 use crate::plane::Region;
@@ -44,11 +44,18 @@ pub(super) struct MillReport<'a> {
     /// Against the path with sharp inside corners; `None` where this one is sharp, or that one cannot be planned.
     pub(super) saved: Option<&'a TimeSaved>,
     pub(super) written: &'a [PathBuf],
+    /// The program that is not written, because it cuts into the part.
+    pub(super) withheld: Option<&'a Path>,
+}
+
+/// Whether a program cuts into what must remain.
+pub(super) fn gouges(gouge: Option<&Gouge>) -> bool {
+    gouge.is_some_and(|g| g.depth_mm > GOUGE_LIMIT)
 }
 
 impl MillReport<'_> {
     pub(super) fn gouges(&self) -> bool {
-        self.certificate.gouge.is_some_and(|g| g.depth_mm > GOUGE_LIMIT)
+        gouges(self.certificate.gouge.as_ref())
     }
 
     fn refused(&self) -> bool {
@@ -113,6 +120,7 @@ impl MillReport<'_> {
             "contradictions": self.contradictions,
             "good": self.verdict() == Verdict::Good,
             "written": self.written,
+            "withheld": self.withheld,
         });
         Ok(serde_json::to_string_pretty(&value)? + "\n")
     }
@@ -215,8 +223,13 @@ impl MillReport<'_> {
                 "rounding left contradictions in the closing: change a radius by a thousandth".to_owned(),
             );
         }
-        let names: Vec<String> = self.written.iter().map(|p| p.display().to_string()).collect();
-        line("wrote", names.join(", "));
+        if let Some(program) = self.withheld {
+            line("NOT WRITTEN", format!("{}: it would cut into the part", program.display()));
+        }
+        if !self.written.is_empty() {
+            let names: Vec<String> = self.written.iter().map(|p| p.display().to_string()).collect();
+            line("wrote", names.join(", "));
+        }
         text
     }
 
@@ -370,6 +383,7 @@ mod tests {
                 accept_losses: false,
                 saved: None,
                 written: &[],
+                withheld: None,
             };
             (report.verdict(), report.text().contains("NOT CUT FREE"))
         };

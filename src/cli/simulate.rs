@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result, bail};
 
 use super::check::FormatArg;
+use super::engaged::with_heights;
 use super::{ExitStatus, input, output};
 use crate::cam::{
     self, Against, AgainstOptions, CutLevel, HeightMap, Program, Remainder, Side, SimulateOptions, Simulation, Stock,
@@ -24,6 +25,10 @@ use report::SimulateReport;
 /// Faces of the STL stay this near to the height map, in millimetres: less than paper.
 const STL_TOLERANCE: f64 = 0.01;
 
+/// How deep beams and pens cut whose programs know no depth, and how high they are lifted, in millimetres, where the thickness
+/// of the stock is not given.
+const NO_DEPTH: f64 = 1.0;
+
 /// Runs the command: exit status 1 where something was found.
 ///
 /// # Errors
@@ -35,13 +40,17 @@ pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
     if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
         bail!("{}: this is a drawing and no program: make one of it with `clopen mill` first", name());
     }
-    let program = gcode::read(&text).with_context(name)?;
+    let asked = args.dialect.as_deref().map(input::dialect).transpose()?;
+    let dialect = asked.as_ref().or(Dialect::of_header(&text)).unwrap_or(Dialect::portable());
+    let program = gcode::read_as(&text, dialect).with_context(name)?;
     if program.motions.is_empty() {
         bail!("{}: nothing moves: there is no motion in it that could be simulated", name());
     }
-    let tools = ToolTable::gather(&args.tools, &program);
     let top = input::millimetres(args.stock.stock_top, "--stock-top")?;
-    let guesses = guesses(&text, top);
+    let thickness = args.stock.size()?.map_or(NO_DEPTH, |[_, _, thickness]| thickness);
+    let program = with_heights(program, dialect, top + NO_DEPTH, top - thickness);
+    let tools = ToolTable::gather(&args.tools, &program);
+    let guesses = guesses(&text, dialect, top);
     cam::check_tools(&program, &tools, top).with_context(name)?;
     let stock = stock(args, &program, &tools, top)?;
     let options = options(args, &program, &tools, stock)?;
@@ -90,8 +99,7 @@ pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
 }
 
 /// What the linter finds that makes the motions, as they were read, no machine's.
-fn guesses(text: &str, stock_top: f64) -> Vec<Finding> {
-    let dialect = Dialect::of_header(text).unwrap_or(Dialect::portable());
+fn guesses(text: &str, dialect: &Dialect, stock_top: f64) -> Vec<Finding> {
     let mut findings = gcode::lint(text, &LintOptions { dialect, stock_top });
     findings.retain(|f| f.rule.info().reading != Reading::Exact);
     findings

@@ -4,8 +4,7 @@ use super::PreviewError;
 use super::outline::{short, split_moved};
 use super::palette;
 use super::sheet::{Entry, Sample, Sheet};
-use crate::cam::{Motion, MotionKind, Program};
-use crate::cam::{Uncut, statistics};
+use crate::cam::{Motion, MotionKind, Program, Tool, ToolShape, Uncut, statistics};
 use crate::plane::{Bounds, Point, Region, Segment};
 
 /// What the picture of a program shows.
@@ -19,8 +18,9 @@ pub struct Scene<'a> {
     pub kept: Option<&'a Region>,
     /// What is left standing.
     pub uncut: Option<&'a Uncut>,
-    /// Radius of the tool in millimetres; `None` where it is not known.
-    pub tool_radius: Option<f64>,
+    /// The tools that cut, known by their numbers; a single one is that of the whole program whatever its number. Empty
+    /// where they are not known.
+    pub tools: &'a [Tool],
     /// Where the top of the stock lies, z in millimetres.
     pub stock_top: f64,
 }
@@ -28,7 +28,17 @@ pub struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// A scene of a program alone, stock top at 0.
     pub fn new(program: &'a Program) -> Scene<'a> {
-        Scene { program, part: None, kept: None, uncut: None, tool_radius: None, stock_top: 0.0 }
+        Scene { program, part: None, kept: None, uncut: None, tools: &[], stock_top: 0.0 }
+    }
+
+    /// How wide the tool cuts on `motion` at the top of the stock, in millimetres from its axis, where it goes deepest;
+    /// `None` where the tool is not known.
+    fn cut_radius(&self, motion: &Motion) -> Option<f64> {
+        let tool = match self.tools {
+            [only] => only,
+            tools => tools.iter().find(|tool| tool.number == motion.tool)?,
+        };
+        Some(tool.radius_at(self.stock_top - motion.from.z.min(motion.to.z)))
     }
 }
 
@@ -59,13 +69,7 @@ pub fn program(scene: &Scene, size: u32) -> Result<Vec<u8>, PreviewError> {
     if let Some(part) = scene.part {
         sheet.canvas.fill(view.region(part).as_ref(), palette::PART, None);
     }
-    if let Some(radius) = scene.tool_radius {
-        let swept = view.elements(in_stock().flat_map(Motion::trace));
-        sheet.canvas.stroke(&swept, palette::SWATH, 2.0 * radius * view.scale, None);
-        for motion in in_stock().filter(|m| m.trace().next().is_none()) {
-            sheet.canvas.disk(view.pixel(motion.to.xy()), radius * view.scale, palette::SWATH);
-        }
-    }
+    draw_swaths(scene, &mut sheet);
     draw_uncut(scene, &mut sheet);
     if let Some(part) = scene.part {
         let (on, off) = split_moved(part, scene.kept, SAME_BOUNDARY);
@@ -103,7 +107,7 @@ fn bounds(scene: &Scene) -> Bounds {
             .fold(Bounds::EMPTY, |b, m| m.trace().fold(b.with_point(m.to.xy()), |b, s| b.union(s.bounds())))
     };
     let path = of_path(true);
-    let radius = scene.tool_radius.filter(|r| r.is_finite()).unwrap_or(0.0);
+    let radius = scene.tools.iter().map(Tool::radius).filter(|r| r.is_finite()).fold(0.0, f64::max);
     let cut = if path.is_empty() { path } else { path.inflated(radius) };
     let all = outlines.union(cut);
     if all.is_empty() { of_path(false) } else { all }
@@ -127,8 +131,12 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
             add(Sample::Ring(palette::UNCUT_LINE), "small uncut place".to_owned());
         }
     }
-    if let Some(radius) = scene.tool_radius {
-        add(Sample::Fill(palette::SWATH, None), format!("cut, {} mm wide", thousandths(2.0 * radius)));
+    match scene.tools {
+        [] => {}
+        [only] if only.shape == ToolShape::Flat => {
+            add(Sample::Fill(palette::SWATH, None), format!("cut, {} mm wide", thousandths(only.diameter)));
+        }
+        _ => add(Sample::Fill(palette::SWATH, None), "cut".to_owned()),
     }
     if depth > 0.0 {
         let colors = (0..=DEPTH_STEPS).map(|k| palette::depth(k as f64 / DEPTH_STEPS as f64)).collect();
@@ -148,6 +156,26 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
 
 fn thousandths(length: f64) -> String {
     format!("{length:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// What the tools sweep in the stock: one stroke for all motions of the same width.
+fn draw_swaths(scene: &Scene, sheet: &mut Sheet) {
+    let view = sheet.view;
+    let mut by_width: Vec<(f64, Vec<&Motion>)> = Vec::new();
+    for motion in scene.program.motions.iter().filter(|m| m.is_in_stock(scene.stock_top)) {
+        let Some(radius) = scene.cut_radius(motion) else { continue };
+        match by_width.last_mut() {
+            Some((width, motions)) if *width == 2.0 * radius => motions.push(motion),
+            _ => by_width.push((2.0 * radius, vec![motion])),
+        }
+    }
+    for (width, motions) in by_width {
+        let swept = view.elements(motions.iter().flat_map(|m| m.trace()));
+        sheet.canvas.stroke(&swept, palette::SWATH, width * view.scale, None);
+        for motion in motions.iter().filter(|m| m.trace().next().is_none()) {
+            sheet.canvas.disk(view.pixel(motion.to.xy()), 0.5 * width * view.scale, palette::SWATH);
+        }
+    }
 }
 
 fn draw_uncut(scene: &Scene, sheet: &mut Sheet) {
@@ -190,7 +218,7 @@ fn draw_path(scene: &Scene, depth: f64, sheet: &mut Sheet) {
         steps[(t * DEPTH_STEPS as f64).round() as usize].extend(motion.trace());
     }
     // Lines must not hide the swath of a small tool.
-    let swath = scene.tool_radius.map_or(f64::INFINITY, |r| 2.0 * r * view.scale);
+    let swath = scene.tools.iter().map(|t| t.diameter * view.scale).fold(f64::INFINITY, f64::min);
     let thin = (swath / (WIDEST_LINE * SWATH_TO_LINE * unit)).clamp(0.3, 1.0);
     let used = steps.iter().filter(|s| !s.is_empty()).count();
     let mut rank = 0;

@@ -4,16 +4,17 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, anyhow, bail};
 
-use super::engaged::{laps, with_heights};
 use super::select::select;
 use super::setup_report::SetupReport;
 use super::setup_saved::time_saved;
-use super::{FormatArg, MillArgs, Verdict, keep_page, setup_page, stock_edges, target};
+use super::{FormatArg, MillArgs, Verdict, cut_free, keep_page, setup_page, stock_edges, target, travel};
 use crate::cam::{
     self, Entry, Geometry, Hole, Notice, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder,
-    Setup, SetupFile, Side, Step, check_amount, check_operation, plan_operation, split_operations,
+    Setup, SetupFile, Side, Step, Tool, check_amount, check_operation, plan_operation, split_operations,
 };
 use crate::check::{LostFeature, lost_features};
+use crate::cli::engaged::{laps, with_heights};
+use crate::cli::report::gouges;
 use crate::cli::{ExitStatus, input, output};
 use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
 use crate::io::svg::Shapes;
@@ -89,6 +90,7 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     let parts = parts(&setup, &shapes, mm_per_unit, shift);
     let drawn = |o: &Operation, holes: &[Hole]| geometry(o, &shapes, mm_per_unit, shift, holes, &parts);
     let mut planned: Vec<Planned> = Vec::new();
+    let mut worked_on: Vec<Region> = Vec::new();
     let mut holes: Vec<Hole> = Vec::new();
     for operation in &setup.operations {
         let geometry = drawn(operation, &holes).with_context(|| place(operation))?;
@@ -99,28 +101,36 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
             plan.notices.extend(covered.into_iter().map(|p| Notice::Covered(p * mm_per_unit + shift)));
         }
         holes.extend(&plan.holes);
+        worked_on.push(geometry.area);
         planned.push(plan);
     }
     let steps = steps(&setup, &planned);
     let written = write(args, &setup, &dialect, options, &steps, &target)?;
     let done = hold_against(&setup, &dialect, planned, &written)?;
-    let mut unsafe_travel = beyond_travel(&setup, &written);
-    unsafe_travel.extend(collisions(&setup, &written));
-    let beyond_stock = stock_edges::beyond(&setup, setup.stock.zero, &done);
+    let mut unsafe_travel = travel::beyond_travel(&setup, &written);
+    unsafe_travel.extend(travel::collisions(&setup, &done, &written));
+    let cut_free = cut_free::cut_free(&setup, &worked_on);
+    let mut remarks = stock_edges::beyond(&setup, setup.stock.zero, &done);
+    remarks.extend(travel::unknown_ways(&setup, &written));
+    remarks.extend(cut_free::loosened(&setup, &worked_on));
     let saved = time_saved(&setup, &dialect, options, &done, &written, &drawn);
 
+    // A program may be run by one who has not read the report.
+    let is_withheld = done.iter().any(|d| gouges(d.check.gouge.as_ref()));
+    let programs = written.iter().filter(|_| !is_withheld);
     let mut contents: Vec<(PathBuf, Vec<u8>)> =
-        written.iter().map(|w| (w.path.clone(), w.text.clone().into_bytes())).collect();
+        programs.map(|w| (w.path.clone(), w.text.clone().into_bytes())).collect();
     if target == Path::new("-") && written.len() > 1 {
         bail!("the job takes {} programs, one a tool: name a file with --output", written.len());
     }
     let has_files = target != Path::new("-");
+    let drawn_outlines = drawn_outlines(&shapes, mm_per_unit, shift);
     let mut pictures: Vec<Option<Vec<u8>>> = vec![None; written.len()];
     for (program, picture) in written.iter().zip(&mut pictures) {
         if args.no_preview || !(has_files || args.html.is_some()) {
             continue;
         }
-        let png = draw(&setup, program)?;
+        let png = draw(&setup, &drawn_outlines, &tools_of(&setup, &done, program.index), program)?;
         if has_files {
             let path = program.path.with_extension("png");
             contents.push((path, png.clone()));
@@ -136,8 +146,10 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         done: &done,
         accept_losses: args.accept_losses,
         written: &written,
+        is_withheld,
         unsafe_travel: &unsafe_travel,
-        beyond_stock: &beyond_stock,
+        cut_free: &cut_free,
+        remarks: &remarks,
         saved: saved.as_ref(),
         files: &files,
     };
@@ -338,58 +350,26 @@ fn lost(operation: &Operation, planned: &Planned, radius: f64) -> Vec<LostFeatur
     lost_features(&keep.part, &keep.kept, radius, closing)
 }
 
-/// Which axes would travel farther than the machine can.
-fn beyond_travel(setup: &Setup, written: &[Written]) -> Vec<String> {
-    let Some(travel) = setup.rig.travel else { return Vec::new() };
-    let places = || written.iter().flat_map(|w| &w.program.motions).map(|m| m.to);
-    let span = |axis: usize| {
-        let values = || places().map(|p| p[axis]);
-        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
-    };
-    ["x", "y", "z"]
-        .iter()
-        .zip(0..3)
-        .filter(|(_, axis)| span(*axis) > travel[*axis])
-        .map(|(name, axis)| format!("{name} travels {:.1} mm, and the machine {:.1} mm", span(axis), travel[axis]))
-        .collect()
+/// The outlines of all shapes in the machine's coordinates.
+fn drawn_outlines(shapes: &Shapes, scale: f64, shift: Vector) -> Region {
+    let rings = (0..shapes.shapes.len()).flat_map(|k| shapes.united(&[k]).rings);
+    Region::new(rings.collect()).scaled(scale).translated(shift)
 }
 
-/// The first motion of every program that enters a keepout.
-fn collisions(setup: &Setup, written: &[Written]) -> Vec<String> {
-    let radius = |number: u32| {
-        let named = setup.tools.iter().find(|t| t.number == number);
-        // A program of one tool does not name it.
-        named.map_or_else(|| setup.tools.iter().map(|t| t.radius()).fold(0.0, f64::max), |t| t.radius())
-    };
-    let mut found = Vec::new();
-    for program in written {
-        for (number, keepout) in setup.keepouts.iter().enumerate() {
-            let entered = program.program.motions.iter().find_map(|m| {
-                // Where the machine comes from is not known.
-                let (depth, at) = keepout.entered_by(m, radius(m.tool)).filter(|_| m.line > first_travel(program))?;
-                Some((m.line, depth, at))
-            });
-            if let Some((line, depth, at)) = entered {
-                found.push(format!(
-                    "{}: line {line} takes the tool {depth:.2} mm into keepout {} at ({:.2}, {:.2}): move the clamp, or the part",
-                    program.path.display(),
-                    number + 1,
-                    at.x,
-                    at.y
-                ));
-            }
+/// The tools that a program uses.
+pub(super) fn tools_of(setup: &Setup, done: &[Done], program: usize) -> Vec<Tool> {
+    let mut tools: Vec<Tool> = Vec::new();
+    for tool in done.iter().filter(|d| d.program == program).map(|d| setup.tool_of(d.operation)) {
+        if tools.iter().all(|known| known.number != tool.number) {
+            tools.push(tool.clone());
         }
     }
-    found
+    tools
 }
 
-/// The line of the first travel, which starts at an unknown place.
-fn first_travel(program: &Written) -> usize {
-    program.program.motions.iter().find(|m| m.trace().next().is_some()).map_or(0, |m| m.line)
-}
-
-fn draw(setup: &Setup, written: &Written) -> Result<Vec<u8>> {
-    let scene = Scene { stock_top: setup.stock.top, ..Scene::new(&written.program) };
+fn draw(setup: &Setup, outlines: &Region, tools: &[Tool], written: &Written) -> Result<Vec<u8>> {
+    let part = Some(outlines).filter(|o| !o.is_empty());
+    let scene = Scene { part, tools, stock_top: setup.stock.top, ..Scene::new(&written.program) };
     preview::program(&scene, DEFAULT_SIZE).context("the picture cannot be drawn; --no-preview leaves it out")
 }
 

@@ -2,10 +2,10 @@
 
 use super::differences::{Cut, merged};
 use super::page::{file_name, finding};
-use super::setup::{Done, Written};
+use super::setup::{Done, tools_of};
 use super::setup_report::{SetupReport, corners_left, loose_part};
 use crate::cam::{OperationKind, Remainder, Setup};
-use crate::cli::report::{GOUGE_LIMIT, Verdict};
+use crate::cli::report::{Verdict, gouges};
 use crate::plane::{Region, Ring};
 use crate::preview::{Difference, Outline, Page, PageOperation, PageProgram, PageTool};
 
@@ -28,7 +28,7 @@ pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> Stri
         name: file_name(&w.path),
         program: &w.program,
         machine: setup.rig.limits,
-        tools: tools(report, w),
+        tools: tools_of(setup, report.done, w.index).iter().map(|t| PageTool::new(t.number, t)).collect(),
         picture,
     });
     crate::preview::page(&Page {
@@ -69,18 +69,6 @@ fn operation(report: &SetupReport, done: &Done) -> PageOperation {
     }
 }
 
-/// The tools of a program, in the order of their use.
-fn tools(report: &SetupReport, written: &Written) -> Vec<PageTool> {
-    let mut tools: Vec<PageTool> = Vec::new();
-    for done in report.done.iter().filter(|d| d.program == written.index) {
-        let tool = report.setup.tool_of(done.operation);
-        if !tools.iter().any(|t| t.number == tool.number) {
-            tools.push(PageTool::new(tool.number, tool));
-        }
-    }
-    tools
-}
-
 /// What must remain of parts, and what is cut into them.
 fn outlines(done: &[Done]) -> Vec<Outline> {
     let mut outlines: Vec<Outline> = Vec::new();
@@ -108,7 +96,7 @@ fn differences(setup: &Setup, done: &Done) -> Vec<Difference> {
         followed_by: later.map(|o| o.label.clone()),
     };
     let mut rows = Vec::new();
-    rows.extend(check.gouge.filter(|g| g.depth_mm > GOUGE_LIMIT).map(|g| cut.gouge(&g)));
+    rows.extend(check.gouge.filter(|g| gouges(Some(g))).map(|g| cut.gouge(&g)));
     rows.extend(cut.lost(&done.lost));
     let is_held = !done.planned.tabs.is_empty() || operation.cutting.onion_skin.is_some();
     // Tabs stand where the tool goes around: they are no corners that it does not reach.

@@ -8,9 +8,10 @@ use serde_json::json;
 
 use super::setup::{Done, Written, at};
 use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, Uncut, estimate, uncut};
-use crate::cli::report::{GOUGE_LIMIT, Verdict, describe};
+use crate::cli::report::{GOUGE_LIMIT, Verdict, describe, gouges};
 use crate::cli::time_words::{minutes, sharp, time_saved};
 use crate::gcode::Severity;
+use crate::rolling::Topology;
 
 /// All that is to be told of a job. Places are in the machine's coordinates.
 pub(super) struct SetupReport<'a> {
@@ -21,9 +22,13 @@ pub(super) struct SetupReport<'a> {
     pub(super) done: &'a [Done<'a>],
     pub(super) accept_losses: bool,
     pub(super) written: &'a [Written],
+    /// Whether the programs are no files, because one cuts into what must remain.
+    pub(super) is_withheld: bool,
     pub(super) unsafe_travel: &'a [String],
-    /// What lies beyond the edges of the stock.
-    pub(super) beyond_stock: &'a [String],
+    /// What is worked on after it has been cut free.
+    pub(super) cut_free: &'a [String],
+    /// What else is unusual.
+    pub(super) remarks: &'a [String],
     /// Against paths with sharp inside corners; `None` where nothing is rounded, or they cannot be planned.
     pub(super) saved: Option<&'a TimeSaved>,
     pub(super) files: &'a [PathBuf],
@@ -47,7 +52,7 @@ impl SetupReport<'_> {
             let words = words(done, self.setup, self.accept_losses).failures.into_iter();
             failures.extend(words.map(|f| format!("{}: {f}", done.check.label)));
         }
-        failures.extend(self.unsafe_travel.iter().cloned());
+        failures.extend(self.job_failures().cloned());
         for written in self.written {
             if written.findings.iter().any(|f| f.severity == Severity::Error) {
                 let (name, dialect) = (written.path.display(), self.dialect);
@@ -55,6 +60,13 @@ impl SetupReport<'_> {
             }
         }
         failures
+    }
+
+    /// What is wrong with the job as a whole, in sentences.
+    fn job_failures(&self) -> impl Iterator<Item = &String> {
+        // Tape or a vacuum may hold what is cut free.
+        let cut_free = self.cut_free.iter().filter(|_| !self.accept_losses);
+        self.unsafe_travel.iter().chain(cut_free)
     }
 
     /// Whether an operation does what was asked.
@@ -65,7 +77,8 @@ impl SetupReport<'_> {
     /// What is unusual about the job, in sentences.
     pub(super) fn warnings(&self) -> Vec<String> {
         let mut warnings = self.setup.cutting_warnings();
-        warnings.extend(self.beyond_stock.iter().cloned());
+        warnings.extend(self.remarks.iter().cloned());
+        warnings.extend(self.cut_free.iter().filter(|_| self.accept_losses).cloned());
         warnings
     }
 
@@ -116,14 +129,18 @@ impl SetupReport<'_> {
         for warning in self.warnings() {
             let _ = writeln!(text, "note    {warning}");
         }
-        for travel in self.unsafe_travel {
-            let _ = writeln!(text, "FAILED  {travel}");
+        for failure in self.job_failures() {
+            let _ = writeln!(text, "FAILED  {failure}");
         }
         for written in self.written {
             for finding in &written.findings {
                 let severity = format!("{:?}", finding.severity).to_lowercase();
                 let _ = writeln!(text, "{}:{}: {severity}: {}", written.path.display(), finding.line, finding.message);
             }
+        }
+        for program in self.written.iter().filter(|_| self.is_withheld) {
+            let why = "a program of this job would cut into the part";
+            let _ = writeln!(text, "{:<24}{}: {why}", "NOT WRITTEN", program.path.display());
         }
         for file in self.files {
             let _ = writeln!(text, "{:<24}{}", "written", file.display());
@@ -163,9 +180,11 @@ impl SetupReport<'_> {
             "sharp": self.saved.map(sharp),
             "warnings": self.warnings(),
             "beyond_travel": self.unsafe_travel,
+            "cut_free": self.cut_free,
             "gouge_limit_mm": GOUGE_LIMIT,
             "good": self.verdict() == Verdict::Good,
             "written": self.files,
+            "withheld": self.is_withheld,
         });
         Ok(serde_json::to_string_pretty(&value)? + "\n")
     }
@@ -175,8 +194,12 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
     let (check, planned) = (&done.check, &done.planned);
     let mut failures = Vec::new();
     let mut notes = Vec::new();
-    if let Some(gouge) = check.gouge.filter(|g| g.depth_mm > GOUGE_LIMIT) {
-        failures.push(format!("line {} cuts {:.4} mm into what must remain", gouge.line, gouge.depth_mm));
+    if let Some(gouge) = check.gouge.filter(|g| gouges(Some(g))) {
+        let remedy = match done.operation.cutting.topology {
+            Topology::Keep => ": topology = \"merge\" leaves out what the tool does not fit into",
+            Topology::Merge => "",
+        };
+        failures.push(format!("line {} cuts {:.4} mm into what must remain{remedy}", gouge.line, gouge.depth_mm));
     }
     for (what, [asked, found]) in [("tabs", check.tabs), ("holes", check.holes)] {
         if asked != found {

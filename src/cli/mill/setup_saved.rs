@@ -2,9 +2,9 @@
 
 use anyhow::Result;
 
-use super::engaged::with_heights;
 use super::setup::{Done, Written, steps};
 use crate::cam::{Geometry, Hole, Operation, OperationKind, PathRadius, Setup, TimeSaved, plan_operation};
+use crate::cli::engaged::with_heights;
 use crate::gcode::{self, Dialect, WriteOptions};
 
 /// What the path radii save: every operation that can be planned with sharp inside corners planned and written so, the others as

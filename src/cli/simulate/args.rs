@@ -20,6 +20,10 @@ pub(in crate::cli) struct SimulateArgs {
     /// than once, and beats what comments of the program say. 0 is the tool that the program starts with
     #[arg(long = "tool", value_name = "TOOL", allow_hyphen_values = true)]
     pub(super) tools: Vec<Tool>,
+    /// The controller whose program it is: a name as of `clopen lint --dialect`, or a dialect file. Beams and pens, whose
+    /// programs have no depth, cut through the stock [default: as the header of a program of clopen says, or portable]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) dialect: Option<String>,
     /// How to print the report
     #[arg(long, value_enum, default_value_t = FormatArg::Text)]
     pub(super) format: FormatArg,
