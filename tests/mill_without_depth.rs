@@ -63,3 +63,20 @@ fn tabs_that_a_beam_would_cut_are_told() {
     assert_eq!(code, Some(1), "{text}");
     assert!(text.contains("2 tabs were asked for"), "{text}");
 }
+
+#[test]
+fn beams_and_pens_have_defaults_of_their_own() {
+    let (text, program, code) = mill(None, &["--dialect", "grbl-laser"]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.contains("0.200 mm, path radius"), "{text}");
+    assert!(text.contains("in 3 passes"), "{text}");
+    assert!(program.contains("M4 S1000"), "{program}");
+    let (text, _, code) = mill(None, &["--dialect", "plotter"]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.contains("0.500 mm, path radius"), "{text}");
+    let plain = job("grbl-laser", "kind = \"profile\"\nthrough = true").replace("spindle-speed = 800\n", "");
+    let (text, program, code) = mill(Some(&plain), &[]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(program.contains("M4 S1000"), "{program}");
+    assert!(!text.contains("a tooth"), "{text}");
+}

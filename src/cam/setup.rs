@@ -4,6 +4,7 @@ mod amount;
 mod file;
 mod locate;
 mod plain_words;
+mod problem;
 mod resolve;
 mod rest;
 mod sample;
@@ -13,7 +14,8 @@ use super::{Direction, Entry, Keepout, Machine, Origin, PathRadius, Side, Tool};
 use crate::rolling::Topology;
 use crate::units::Speed;
 pub use amount::{AmountError, check_amount};
-pub use file::{InvalidSetup, SelectFile, SetupFile, SetupProblem, Words};
+pub use file::{SelectFile, SetupFile, Words};
+pub use problem::{InvalidSetup, SetupProblem};
 pub use sample::{SampleShape, commented_sample};
 pub use warnings::{chip_load, surface_speed};
 

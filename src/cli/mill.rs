@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result, anyhow, bail};
 
 use super::check::FormatArg;
-use super::engaged::with_heights;
+use super::engaged::{laps, with_heights};
 use super::report::{MillReport, Verdict, gouges};
 use super::{ExitStatus, input, output};
 use crate::cam::{
@@ -26,13 +26,13 @@ use crate::cam::{
     Remainder, SetupFile, Side, TimeSaved, Tool, Toolpath,
 };
 use crate::check::{LostFeature, lost_features};
-use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
+use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, MachineKind, Units, WriteOptions};
 use crate::io::svg::Drawing;
 use crate::plane::Region;
 use crate::preview::{self, DEFAULT_SIZE, Scene};
 use crate::reference::Operation;
 use crate::rolling::{self, Topology};
-use crate::units::Radius;
+use crate::units::{Length, Radius};
 pub(super) use args::MillArgs;
 
 /// What the flags and the job file say together.
@@ -165,6 +165,13 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     })
 }
 
+/// What a beam takes, and a pen draws, where nobody says: those of hobby machines.
+const LASER_KERF: Length = Length::Millimetres(0.2);
+const PEN_WIDTH: Length = Length::Millimetres(0.5);
+
+/// Full power, as S counts it where the controller has not been told otherwise (GRBL's $30).
+const LASER_POWER: f64 = 1000.0;
+
 fn read_settings(args: &MillArgs, drawing: &Drawing, target: &Path) -> Result<Settings> {
     let mut typed = args.typed();
     if let Some(path) = &args.job {
@@ -183,6 +190,16 @@ fn read_settings(args: &MillArgs, drawing: &Drawing, target: &Path) -> Result<Se
     if !dialect.has_depth() {
         // Nothing goes down: on a ramp the beam would go around several times in one pass.
         typed.entry = Some(Entry::Plunge);
+    }
+    match dialect.machine {
+        MachineKind::Router => {}
+        MachineKind::Laser => {
+            typed.tool_diameter.get_or_insert(LASER_KERF);
+            typed.spindle_speed.get_or_insert(LASER_POWER);
+        }
+        MachineKind::Pen => {
+            typed.tool_diameter.get_or_insert(PEN_WIDTH);
+        }
     }
     Ok(Settings {
         job: typed.resolve(&drawing.scale())?,
@@ -282,6 +299,10 @@ fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
             ..CertifyOptions::new(job.offset_distance())
         },
     );
+    if !dialect.has_depth() {
+        // All passes are at one height: what counts is how often it goes around.
+        certificate.statistics.passes = laps(&program, job.stock_top);
+    }
     if options.arcs == Arcs::Lines {
         // Between lines every joint is a corner: what counts is the path that they stand for.
         let round = WriteOptions { arcs: Arcs::Arcs, ..*options };

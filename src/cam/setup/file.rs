@@ -8,6 +8,7 @@ use toml::Spanned;
 
 use super::locate::Locator;
 use super::plain_words::reworded;
+use super::problem::{InvalidSetup, SetupProblem};
 use crate::cam::job_file::{TypedPathRadius, typed};
 use crate::cam::{Direction, Entry, JobFile, Machine, Origin, Side};
 use crate::rolling::Topology;
@@ -376,35 +377,6 @@ pub struct TabsFile {
     pub height: Option<Length>,
 }
 
-/// One thing that is wrong with a job file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SetupProblem {
-    /// The line, counted from 1; 0 where it is about the whole.
-    pub line: usize,
-    /// What is wrong and what to try.
-    pub message: String,
-}
-
-/// All that is wrong with a job file; never empty.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub struct InvalidSetup {
-    /// The problems by line.
-    pub problems: Vec<SetupProblem>,
-}
-
-impl std::fmt::Display for InvalidSetup {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        for (k, problem) in self.problems.iter().enumerate() {
-            let separator = if k == 0 { "" } else { "\n" };
-            match problem.line {
-                0 => write!(f, "{separator}{}", problem.message)?,
-                line => write!(f, "{separator}line {line}: {}", problem.message)?,
-            }
-        }
-        Ok(())
-    }
-}
-
 /// The tables that only job files with operations have.
 const TABLES: [&str; 6] = ["version", "stock", "machine", "tool", "operation", "keepout"];
 
@@ -417,6 +389,13 @@ impl SetupFile {
             TABLES.contains(&key.unwrap_or_default())
         };
         text.lines().any(starts)
+    }
+
+    /// Sets the spindle speed of tools of which the file says none: of a beam it is the power.
+    pub fn default_spindle_speed(&mut self, speed: f64) {
+        for tool in &mut self.tool {
+            tool.as_mut().spindle_speed.get_or_insert(speed);
+        }
     }
 }
 

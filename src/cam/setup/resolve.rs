@@ -9,8 +9,9 @@ mod tool;
 use std::ops::Range;
 
 use self::rest::sorted_by_tool;
-use super::file::{InvalidSetup, KeepoutFile, SetupFile, SetupProblem, refuse_flags};
+use super::file::{KeepoutFile, SetupFile, refuse_flags};
 use super::locate::Locator;
+use super::problem::{InvalidSetup, SetupProblem};
 use super::{Operation, Rig, SETUP_VERSION, Setup, Workpiece};
 use crate::cam::{DEFAULT_DWELL, DEFAULT_ORIGIN, DEFAULT_SAFE_CLEARANCE, JobFile, Keepout, Machine, Tool};
 use crate::plane::{Bounds, Point};

@@ -51,7 +51,7 @@ pub(in crate::cli) struct MillArgs {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Cutting")]
 struct CutArgs {
-    /// Diameter of the tool [default: 3.175mm]
+    /// Diameter of the tool [default: 3.175mm; a beam 0.2mm, a pen 0.5mm]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     tool_diameter: Option<Length>,
     /// Depth of the cut [default: 3mm]
@@ -66,7 +66,7 @@ struct CutArgs {
     /// Feed of ramps and plunges [default: 300mm/min]
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     plunge_feed: Option<Speed>,
-    /// Spindle speed in revolutions a minute [default: 18000]
+    /// Spindle speed in revolutions a minute; the power of a beam [default: 18000; a beam 1000]
     #[arg(long, value_name = "RPM", allow_hyphen_values = true)]
     spindle_speed: Option<f64>,
     /// Seconds to wait for the spindle [default: 3]

@@ -7,7 +7,7 @@ use anyhow::{Context as _, Result, anyhow, bail};
 use super::select::select;
 use super::setup_report::SetupReport;
 use super::setup_saved::time_saved;
-use super::{FormatArg, MillArgs, Verdict, cut_free, keep_page, setup_page, stock_edges, target, travel};
+use super::{FormatArg, LASER_POWER, MillArgs, Verdict, cut_free, keep_page, setup_page, stock_edges, target, travel};
 use crate::cam::{
     self, Entry, Geometry, Hole, Notice, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder,
     Setup, SetupFile, Side, Step, Tool, check_amount, check_operation, plan_operation, split_operations,
@@ -16,7 +16,7 @@ use crate::check::{LostFeature, lost_features};
 use crate::cli::engaged::{laps, with_heights};
 use crate::cli::report::gouges;
 use crate::cli::{ExitStatus, input, output};
-use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, Units, WriteOptions};
+use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, MachineKind, Units, WriteOptions};
 use crate::io::svg::Shapes;
 use crate::plane::{Point, Region, Vector};
 use crate::preview::{self, DEFAULT_SIZE, Scene};
@@ -68,8 +68,14 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     }
     let mut file: SetupFile = text.parse().with_context(|| job.display().to_string())?;
     let settings = read_machine_settings(&mut file, job)?;
-    let mut setup = file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string())?;
+    let resolve =
+        |file: SetupFile| file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string());
+    let mut setup = resolve(file.clone())?;
     let (dialect, dialect_file) = input::dialect_beside(&setup.rig.dialect, job)?;
+    if dialect.machine == MachineKind::Laser {
+        file.default_spindle_speed(LASER_POWER);
+        setup = resolve(file)?;
+    }
     // All that is read: nothing of it may be written over.
     let inputs: Vec<&Path> = [Some(args.input.as_path()), Some(job), settings.as_deref(), dialect_file.as_deref()]
         .into_iter()
@@ -142,7 +148,7 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         input: &args.input,
         job,
         setup: &setup,
-        dialect: &dialect.name,
+        dialect: &dialect,
         done: &done,
         accept_losses: args.accept_losses,
         written: &written,

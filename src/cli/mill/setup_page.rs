@@ -15,7 +15,7 @@ pub(super) fn page(report: &SetupReport, pictures: Vec<Option<Vec<u8>>>) -> Stri
     let facts = [
         ("drawing", file_name(report.input)),
         ("job", file_name(report.job)),
-        ("dialect", report.dialect.to_owned()),
+        ("dialect", report.dialect.name.clone()),
         ("stock", stock(setup)),
         ("safe height", format!("z {} mm", setup.rig.safe_height)),
         ("acceleration", setup.rig.limits.acceleration.map(|a| a.to_string()).join(", ") + " mm/s²"),

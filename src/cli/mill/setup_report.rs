@@ -10,7 +10,7 @@ use super::setup::{Done, Written, at};
 use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, Uncut, estimate, uncut};
 use crate::cli::report::{GOUGE_LIMIT, Verdict, describe, gouges};
 use crate::cli::time_words::{minutes, sharp, time_saved};
-use crate::gcode::Severity;
+use crate::gcode::{Dialect, MachineKind, Severity};
 use crate::rolling::Topology;
 
 /// All that is to be told of a job. Places are in the machine's coordinates.
@@ -18,7 +18,7 @@ pub(super) struct SetupReport<'a> {
     pub(super) input: &'a Path,
     pub(super) job: &'a Path,
     pub(super) setup: &'a Setup,
-    pub(super) dialect: &'a str,
+    pub(super) dialect: &'a Dialect,
     pub(super) done: &'a [Done<'a>],
     pub(super) accept_losses: bool,
     pub(super) written: &'a [Written],
@@ -55,7 +55,7 @@ impl SetupReport<'_> {
         failures.extend(self.job_failures().cloned());
         for written in self.written {
             if written.findings.iter().any(|f| f.severity == Severity::Error) {
-                let (name, dialect) = (written.path.display(), self.dialect);
+                let (name, dialect) = (written.path.display(), &self.dialect.name);
                 failures.push(format!("{name}: {dialect} would refuse the program, or it does harm"));
             }
         }
@@ -76,7 +76,9 @@ impl SetupReport<'_> {
 
     /// What is unusual about the job, in sentences.
     pub(super) fn warnings(&self) -> Vec<String> {
-        let mut warnings = self.setup.cutting_warnings();
+        // Beams and pens have no edges.
+        let has_edges = self.dialect.machine == MachineKind::Router;
+        let mut warnings = if has_edges { self.setup.cutting_warnings() } else { Vec::new() };
         warnings.extend(self.remarks.iter().cloned());
         warnings.extend(self.cut_free.iter().filter(|_| self.accept_losses).cloned());
         warnings
@@ -174,7 +176,7 @@ impl SetupReport<'_> {
         let value = json!({
             "drawing": self.input,
             "job": self.job,
-            "dialect": self.dialect,
+            "dialect": self.dialect.name,
             "operations": operations,
             "programs": programs,
             "sharp": self.saved.map(sharp),
