@@ -58,7 +58,7 @@ fn a_part_that_is_cut_free_before_its_holes_are_made_fails() {
     assert!(text.contains("FAILED  operation \"around\" cuts the part free before \"bore\" works on it"), "{text}");
     let (text, _) = mill(&late, &["--format", "json"]);
     let json: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!((&json["good"], json["cut_free"].as_array().unwrap().len()), (&Value::Bool(false), 1), "{text}");
+    assert_eq!((&json["good"], json["out_of_order"].as_array().unwrap().len()), (&Value::Bool(false), 1), "{text}");
     // What tape or a vacuum holds, the user knows; what hangs on tabs does not come off.
     let (text, code) = mill(&late, &["--accept-losses"]);
     assert_eq!(code, Some(0), "{text}");

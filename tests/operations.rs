@@ -312,7 +312,7 @@ fn carving_is_as_deep_as_the_shape_is_wide() {
 
 #[test]
 fn the_tool_goes_down_in_a_hole_that_was_drilled() {
-    let hole = cam::Hole { center: Point::new(24.0, -30.0), diameter: 4.0, bottom: -6.2 };
+    let hole = cam::Hole { center: Point::new(24.0, -30.0), diameter: 4.0, bottom: -6.2, full_bottom: -6.2 };
     let geometry = Geometry { holes: vec![hole], ..geometry(PLATE) };
     let (planned, program) =
         run("[[operation]]\nkind = \"profile\"\ntool = 1\nthrough = true\nentry = \"predrilled\"\n", &geometry);

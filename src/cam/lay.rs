@@ -31,6 +31,8 @@ pub struct Hole {
     pub diameter: f64,
     /// z of its bottom.
     pub bottom: f64,
+    /// z down to which it has its full diameter: above the point of a drill.
+    pub full_bottom: f64,
 }
 
 /// What was not done as asked, and where.
@@ -50,6 +52,10 @@ pub enum Notice {
     BottomCleared(f64),
     /// A shape with its middle here lies wholly on another one and changes nothing.
     Covered(Point),
+    /// An open line begins here: it has no inside, and nothing is cut along it.
+    OpenLine(Point),
+    /// The tab that was asked for at the first place is at the second.
+    TabMoved(Point, Point),
     /// A shape with its middle here is no circle and is not drilled.
     NotRound(Point),
     /// The circle here, of this diameter, is wider than the drill: the hole comes out as wide as the drill.
@@ -298,7 +304,7 @@ impl Laying<'_> {
     fn hole(&self, start: Point) -> Option<Hole> {
         let room = self.room.as_ref()?;
         let floor = self.heights.last().copied()?;
-        let fits = |h: &&Hole| h.diameter >= self.tool_diameter && h.bottom <= floor;
+        let fits = |h: &&Hole| h.diameter >= self.tool_diameter && h.full_bottom <= floor;
         let mut near: Vec<&Hole> = self.holes.iter().filter(fits).collect();
         near.sort_by(|a, b| (a.center - start).norm().total_cmp(&(b.center - start).norm()));
         near.into_iter().find(|h| room.has(&Segment::line(h.center, start))).copied()

@@ -38,6 +38,7 @@ mod order;
 mod path_radius;
 mod plan;
 mod removal;
+mod sequence;
 mod setup;
 mod side;
 mod simplify;
@@ -84,11 +85,12 @@ pub use levels::{CutLevel, LevelError, cut_levels};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
 pub use operation::{CutLine, Geometry, Keep, OperationError, Planned, TabPlace, plan_operation};
-pub use operation_check::{OperationCheck, check_operation, split_operations};
+pub use operation_check::{OperationCheck, check_operation, split_operations, tabs_taken};
 pub use operation_run::{OPERATION_COMMENT, OperationRun};
 pub use path_radius::{PathPlace, TightestTurns, tightest_turns};
 pub use plan::{PlanError, plan, translation};
 pub use removal::{LEAST_UNCUT_DEPTH, Uncut, UncutPlace, uncut};
+pub use sequence::append;
 pub use setup::{
     AmountError, Corners, Cutting, InvalidSetup, Operation, OperationKind, Pattern, Rig, SETUP_VERSION, SampleShape,
     SelectFile, Setup, SetupFile, SetupProblem, Steps, TabPlaces, Tabs, Words, Workpiece, check_amount, chip_load,

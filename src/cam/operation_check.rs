@@ -8,7 +8,7 @@ use super::certificate::{ProgramStatistics, statistics};
 use super::cone_gouge::deepest_carving;
 use super::gouge::{Gouge, deepest_cut};
 use super::islands::{Island, islands};
-use super::motion::Program;
+use super::motion::{Motion, Program};
 use super::operation::{Keep, Planned};
 use super::operation_run::OPERATION_COMMENT;
 use super::removal::{Uncut, uncut};
@@ -122,7 +122,7 @@ pub fn check_operation(
             _ => against(&|k| deepest_cut(program, &k.part, k.remainder, k.distance, stock_top)),
         }
         .into_iter()
-        .chain(against(&|k| beside(program, k, tool, stock_top)))
+        .chain(against(&|k| beside(program, k, &operation.kind, tool, stock_top)))
         .max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm)),
         overcut: match operation.kind {
             OperationKind::VCarve { .. } => None,
@@ -138,12 +138,20 @@ pub fn check_operation(
 }
 
 /// The deepest cut into the parts of other operations.
-fn beside(program: &Program, keep: &Keep, tool: &super::Tool, stock_top: f64) -> Option<Gouge> {
-    // A cone is as wide as it is deep: it is held against its own shapes only.
-    if keep.others.is_empty() || matches!(tool.shape, ToolShape::Cone { .. }) {
+fn beside(program: &Program, keep: &Keep, kind: &OperationKind, tool: &super::Tool, stock_top: f64) -> Option<Gouge> {
+    if keep.others.is_empty() {
         return None;
     }
-    deepest_cut(program, &keep.others, Remainder::Inside, tool.radius(), stock_top)
+    let radius = match tool.shape {
+        // As wide as it is deep, where it is deepest; letters lie within their shapes whatever their depth.
+        ToolShape::Cone { .. } if matches!(kind, OperationKind::VCarve { .. }) => return None,
+        ToolShape::Cone { .. } => {
+            let lowest = program.motions.iter().map(|m| m.to.z).fold(stock_top, f64::min);
+            tool.radius_at(stock_top - lowest)
+        }
+        ToolShape::Flat | ToolShape::Ball => tool.radius(),
+    };
+    deepest_cut(program, &keep.others, Remainder::Inside, radius, stock_top)
 }
 
 /// Of the heights that were asked for, those that the tool is brought down to at a feed.
@@ -167,6 +175,18 @@ fn stands(program: &Program, tab: &super::TabPlace, radius: f64) -> bool {
         }
     }
     is_passed
+}
+
+/// How many of the tabs, on a path of a tool of `radius`, lose what they hold on to or their middle to the motions of another
+/// program with `tool`.
+pub fn tabs_taken(tabs: &[super::TabPlace], radius: f64, program: &Program, tool: &super::Tool) -> usize {
+    let takes = |motion: &Motion, tab: &super::TabPlace| {
+        let below = tab.top - TAB_ROUNDING - motion.lowest();
+        let reach = radius + tool.radius_at(below) - ON_TAB;
+        below > 0.0 && motion.trace().any(|s| s.is_nearer(tab.at, reach))
+    };
+    let feeds: Vec<&Motion> = program.motions.iter().filter(|m| m.is_feed()).collect();
+    tabs.iter().filter(|tab| feeds.iter().any(|motion| takes(motion, tab))).count()
 }
 
 /// Whether some motion at a feed reaches the bottom of a hole.

@@ -159,7 +159,9 @@ impl Run<'_> {
             }
         }
         let stock = self.map.stock();
-        let below = stock.bottom_mm - motion.lowest();
+        // The point of a drill goes deeper on purpose, so that its full diameter is out.
+        let point = if tool.is_drill { tool.height_at(tool.radius()).unwrap_or(0.0) } else { 0.0 };
+        let below = stock.bottom_mm - motion.lowest() - point;
         if below > self.options.spoil + RAPID_TOUCH {
             let lowest = if motion.to.z <= motion.from.z { motion.to } else { motion.from };
             find(EventKind::Overrun, below, lowest);

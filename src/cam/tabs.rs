@@ -50,6 +50,11 @@ impl Ground<'_> {
         self.base + tabs.height - self.floor
     }
 
+    /// How far from the start of a path the middle of a tab may be.
+    pub(super) fn clearance(&self, tabs: &Tabs) -> f64 {
+        self.plateau(tabs) + FLANK * self.fall(tabs) + self.seam
+    }
+
     /// Half the length over which the tool stays up.
     fn plateau(&self, tabs: &Tabs) -> f64 {
         0.5 * (tabs.width + self.tool_diameter)
@@ -83,6 +88,8 @@ pub(super) struct Placed {
     pub asked: usize,
     /// How many of those that are there stand on tight arcs, for want of better places.
     pub on_arcs: usize,
+    /// Where tabs were asked for by their places and where they are instead, if farther away than they are long.
+    pub moved: Vec<[Point; 2]>,
 }
 
 impl TabLine {
@@ -162,7 +169,7 @@ impl TabLine {
                 points.iter().map(|p| walk.nearest_way(Point::new(p[0], p[1]))).filter_map(|(way, _)| way).collect()
             }
         };
-        let mut placed = Placed { asked: wanted.len(), line: TabLine::empty(tabs, walk, ground), on_arcs: 0 };
+        let mut placed = Placed { asked: wanted.len(), line: TabLine::empty(tabs, walk, ground), ..Placed::default() };
         let half = placed.line.plateau;
         let bounds = walk.segments().iter().fold(Bounds::EMPTY, |b, s| b.union(s.bounds()));
         let strands = ground.strands.near(bounds, HOLD * ground.tool_diameter);
@@ -192,11 +199,13 @@ impl TabLine {
                     .map(|k| (way + k * length / SEARCH_STEPS as f64).rem_euclid(length))
                     .find(|&at| free(at, arcs))
             };
-            if let Some(at) = nearest_free(Some(&round)).or_else(|| nearest_free(Some(&tight))) {
-                placed.line.middles.push(at);
-            } else if let Some(at) = nearest_free(None) {
-                placed.line.middles.push(at);
-                placed.on_arcs += 1;
+            let off_arcs = nearest_free(Some(&round)).or_else(|| nearest_free(Some(&tight)));
+            placed.on_arcs += usize::from(off_arcs.is_none() && nearest_free(None).is_some());
+            let Some(at) = off_arcs.or_else(|| nearest_free(None)) else { continue };
+            placed.line.middles.push(at);
+            let [asked, got] = [walk.point_at(way), walk.point_at(at)];
+            if matches!(tabs.places, TabPlaces::At(_)) && (asked - got).norm() > tabs.width {
+                placed.moved.push([asked, got]);
             }
         }
         placed.line.middles.sort_by(f64::total_cmp);

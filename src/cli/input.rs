@@ -7,7 +7,7 @@ use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 
 use super::output;
-use crate::gcode::Dialect;
+use crate::gcode::{Dialect, HeaderStock};
 use crate::io::svg::{
     self, Curves, DEFAULT_FLATTEN, Drawing, Page, Parts, ReadOptions, Selection, Shapes, Strokes, Warning,
 };
@@ -81,6 +81,17 @@ pub(super) fn millimetres(length: Length, option: &str) -> Result<f64> {
     length
         .to_millimetres(&no_drawing)
         .map_err(|_| anyhow::anyhow!("{option} needs a physical length, for example 3mm; {length} is none"))
+}
+
+/// z of the top of the stock in millimetres: what was typed, else what the header of a program of clopen says, else 0.
+///
+/// # Errors
+/// Where the typed length makes no sense.
+pub(super) fn stock_top(typed: Option<Length>, program: &str) -> Result<f64> {
+    match typed {
+        Some(length) => millimetres(length, "--stock-top"),
+        None => Ok(HeaderStock::of(program).map_or(0.0, |stock| stock.top)),
+    }
 }
 
 /// The dialect that was asked for, by its name or by a file (`.toml`).

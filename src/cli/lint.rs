@@ -29,9 +29,9 @@ pub(super) struct LintArgs {
     /// Print the table of rules instead: name, severity, controllers, reason, source
     #[arg(long, conflicts_with = "file")]
     rules: bool,
-    /// z of the top of the stock
-    #[arg(long, value_name = "LENGTH", default_value_t = Length::Millimetres(0.0), allow_hyphen_values = true)]
-    stock_top: Length,
+    /// z of the top of the stock [default: as the header of a program of clopen says, else 0]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    stock_top: Option<Length>,
     /// How to print the findings
     #[arg(long, value_enum, default_value_t = FormatArg::Text)]
     format: FormatArg,
@@ -60,7 +60,7 @@ pub(super) fn run(args: &LintArgs) -> Result<ExitStatus> {
     if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
         bail!("{}: this is a drawing and no program: name what `clopen mill` wrote", file.display());
     }
-    let stock_top = input::millimetres(args.stock_top, "--stock-top")?;
+    let stock_top = input::stock_top(args.stock_top, &text)?;
     let of_header = Dialect::of_header(&text).unwrap_or(Dialect::portable());
     let dialect = asked.as_ref().unwrap_or(of_header);
     let mut findings = lint(&text, &LintOptions { dialect, stock_top });

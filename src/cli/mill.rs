@@ -1,9 +1,9 @@
 //! `clopen mill`: outlines to a program that was read back and checked before anyone is told that it is there.
 
 mod args;
-mod cut_free;
 mod differences;
 mod init;
+mod job_order;
 mod page;
 mod select;
 mod setup;
@@ -99,7 +99,8 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     if let Some(note) = args.reading.scale_note(&drawing.page) {
         output::say(&format!("clopen: {name}: {note}\n"));
     }
-    for p in args.reading.covered(&args.input) {
+    let covered = args.reading.covered(&args.input);
+    for p in &covered {
         output::say(&format!(
             "clopen: {name}: the shape around ({:.3}, {:.3}) of the drawing, y up, lies wholly on another one and changes nothing: a hole is \
              drawn as part of the same path, with fill-rule=\"evenodd\"\n",
@@ -136,6 +137,7 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
         lost: &plan.lost,
         findings: &checked.findings,
         contradictions: plan.contradictions,
+        covered: covered.len(),
         accept_losses: args.accept_losses,
         saved: saved.as_ref(),
         written: &written,
@@ -169,6 +171,9 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
 const LASER_KERF: Length = Length::Millimetres(0.2);
 const PEN_WIDTH: Length = Length::Millimetres(0.5);
 
+/// How much deeper a beam gets with every lap.
+const LAP_DEPTH: Length = Length::Millimetres(1.0);
+
 /// Full power, as S counts it where the controller has not been told otherwise (GRBL's $30).
 const LASER_POWER: f64 = 1000.0;
 
@@ -196,6 +201,7 @@ fn read_settings(args: &MillArgs, drawing: &Drawing, target: &Path) -> Result<Se
         MachineKind::Laser => {
             typed.tool_diameter.get_or_insert(LASER_KERF);
             typed.spindle_speed.get_or_insert(LASER_POWER);
+            typed.depth_per_pass.get_or_insert(LAP_DEPTH);
         }
         MachineKind::Pen => {
             typed.tool_diameter.get_or_insert(PEN_WIDTH);

@@ -29,9 +29,9 @@ pub(super) struct PreviewArgs {
     /// Diameter of the tool, for a program that does not say it
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     tool_diameter: Option<Length>,
-    /// z of the top of the stock, for a program
-    #[arg(long, value_name = "LENGTH", default_value_t = Length::Millimetres(0.0), allow_hyphen_values = true)]
-    stock_top: Length,
+    /// z of the top of the stock, for a program [default: as the header of a program of clopen says, else 0]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    stock_top: Option<Length>,
     #[command(flatten)]
     reading: ReadArgs,
 }
@@ -87,7 +87,7 @@ fn program(args: &PreviewArgs, bytes: Vec<u8>) -> Result<Vec<u8>> {
     let text = input::into_text(bytes, &args.file)?;
     let name = || args.file.display().to_string();
     let program = gcode::read(&text).with_context(name)?;
-    let stock_top = input::millimetres(args.stock_top, "--stock-top")?;
+    let stock_top = input::stock_top(args.stock_top, &text)?;
     let typed = args.tool_diameter.map(|d| input::millimetres(d, "--tool-diameter")).transpose()?;
     if let Some(diameter) = typed.filter(|d| *d <= 0.0) {
         bail!("--tool-diameter is {diameter} mm: it must be above zero");

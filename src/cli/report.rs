@@ -40,12 +40,19 @@ pub(super) struct MillReport<'a> {
     pub(super) lost: &'a [LostFeature],
     pub(super) findings: &'a [Finding],
     pub(super) contradictions: usize,
+    /// How many shapes lie wholly on others and change nothing.
+    pub(super) covered: usize,
     pub(super) accept_losses: bool,
     /// Against the path with sharp inside corners; `None` where this one is sharp, or that one cannot be planned.
     pub(super) saved: Option<&'a TimeSaved>,
     pub(super) written: &'a [PathBuf],
     /// The program that is not written, because it cuts into the part.
     pub(super) withheld: Option<&'a Path>,
+}
+
+/// Words for a program that is not written, where there is another file of its name.
+pub(super) fn older_one(path: &Path) -> &'static str {
+    if path.is_file() { "; the file of that name is an older one" } else { "" }
 }
 
 /// Whether a program cuts into what must remain.
@@ -86,6 +93,10 @@ impl MillReport<'_> {
             let are = if self.lost.len() == 1 { "is" } else { "are" };
             failures.push(format!("{} of the drawing {are} lost", count(self.lost.len(), "feature")));
         }
+        if self.covered > 0 && !self.accept_losses {
+            let lie = if self.covered == 1 { "lies" } else { "lie" };
+            failures.push(format!("{} {lie} wholly on others and change nothing", count(self.covered, "shape")));
+        }
         if let Some(gouge) = self.certificate.gouge.filter(|_| self.gouges()) {
             failures.push(format!("line {} cuts {:.4} mm into the part", gouge.line, gouge.depth_mm));
         }
@@ -118,6 +129,7 @@ impl MillReport<'_> {
             "lost_features": self.lost,
             "findings": self.findings,
             "contradictions": self.contradictions,
+            "covered_shapes": self.covered,
             "good": self.verdict() == Verdict::Good,
             "written": self.written,
             "withheld": self.withheld,
@@ -224,7 +236,8 @@ impl MillReport<'_> {
             );
         }
         if let Some(program) = self.withheld {
-            line("NOT WRITTEN", format!("{}: it would cut into the part", program.display()));
+            let older = older_one(program);
+            line("NOT WRITTEN", format!("{}: it would cut into the part{older}", program.display()));
         }
         if !self.written.is_empty() {
             let names: Vec<String> = self.written.iter().map(|p| p.display().to_string()).collect();
@@ -281,8 +294,14 @@ impl MillReport<'_> {
     }
 
     fn lost_lines(&self, line: &mut impl FnMut(&str, String)) {
-        if self.lost.is_empty() {
-            return line("lost", "nothing".to_owned());
+        if self.covered > 0 {
+            let what = format!("{} wholly on others, which change nothing", count(self.covered, "shape"));
+            line("LOST", format!("{what}: a hole is drawn as part of the same path, with fill-rule=\"evenodd\""));
+        }
+        match (self.lost.is_empty(), self.covered) {
+            (true, 0) => return line("lost", "nothing".to_owned()),
+            (true, _) => return,
+            (false, _) => {}
         }
         for (i, feature) in self.lost.iter().take(PLACES_SHOWN).enumerate() {
             line(
@@ -380,6 +399,7 @@ mod tests {
                 lost: &[],
                 findings: &[],
                 contradictions: 0,
+                covered: 0,
                 accept_losses: false,
                 saved: None,
                 written: &[],

@@ -2,6 +2,7 @@
 
 mod args;
 mod report;
+mod sources;
 
 use std::path::{Path, PathBuf};
 
@@ -14,13 +15,14 @@ use crate::cam::{
     self, Against, AgainstOptions, CutLevel, HeightMap, Program, Remainder, Side, SimulateOptions, Simulation, Stock,
     ToolTable,
 };
-use crate::gcode::{self, Dialect, Finding, LintOptions, Reading};
+use crate::gcode::{self, Dialect, Finding, HeaderStock, LintOptions, Reading, Rule};
 use crate::io::mesh::{self as files, MeshFormat};
 use crate::mesh::PolygonMesh;
 use crate::plane::Point;
 use crate::preview::{self, DEFAULT_SIZE};
 pub(super) use args::SimulateArgs;
 use report::SimulateReport;
+use sources::{Source, Sources};
 
 /// Faces of the STL stay this near to the height map, in millimetres: less than paper.
 const STL_TOLERANCE: f64 = 0.01;
@@ -35,24 +37,10 @@ const NO_DEPTH: f64 = 1.0;
 /// Where the program or the drawing cannot be read, a tool is not known, the stock makes no sense, or a file cannot be written.
 pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
     check_targets(args)?;
-    let name = || args.file.display().to_string();
-    let text = input::read_text(&args.file)?;
-    if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
-        bail!("{}: this is a drawing and no program: make one of it with `clopen mill` first", name());
-    }
-    let asked = args.dialect.as_deref().map(input::dialect).transpose()?;
-    let dialect = asked.as_ref().or(Dialect::of_header(&text)).unwrap_or(Dialect::portable());
-    let program = gcode::read_as(&text, dialect).with_context(name)?;
-    if program.motions.is_empty() {
-        bail!("{}: nothing moves: there is no motion in it that could be simulated", name());
-    }
-    let top = input::millimetres(args.stock.stock_top, "--stock-top")?;
-    let thickness = args.stock.size()?.map_or(NO_DEPTH, |[_, _, thickness]| thickness);
-    let program = with_heights(program, dialect, top + NO_DEPTH, top - thickness);
+    let Read { program, sources, guesses, top, thickness } = read(args)?;
+    let name = || sources.names();
     let tools = ToolTable::gather(&args.tools, &program);
-    let guesses = guesses(&text, dialect, top);
-    cam::check_tools(&program, &tools, top).with_context(name)?;
-    let stock = stock(args, &program, &tools, top)?;
+    let stock = stock(args, &program, &tools, top, thickness)?;
     let options = options(args, &program, &tools, stock)?;
     let simulation = cam::simulate(&program, &tools, &options).with_context(name)?;
     let floor = floor(args, &program, &tools, &stock)?;
@@ -67,7 +55,7 @@ pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
     )?;
     let written: Vec<PathBuf> = contents.into_iter().map(|(path, _)| path).collect();
     let report = SimulateReport {
-        input: &args.file,
+        sources: &sources,
         tools: &tools,
         used: used(&program, top),
         unknown_to_program: {
@@ -98,11 +86,60 @@ pub(super) fn run(args: &SimulateArgs) -> Result<ExitStatus> {
     Ok(if report.is_clean() { ExitStatus::Done } else { ExitStatus::CheckFailed })
 }
 
-/// What the linter finds that makes the motions, as they were read, no machine's.
-fn guesses(text: &str, dialect: &Dialect, stock_top: f64) -> Vec<Finding> {
-    let mut findings = gcode::lint(text, &LintOptions { dialect, stock_top });
-    findings.retain(|f| f.rule.info().reading != Reading::Exact);
-    findings
+/// What was read.
+struct Read {
+    /// All programs as one.
+    program: Program,
+    sources: Sources,
+    /// What the linter finds that makes the motions, as they were read, no machine's.
+    guesses: Vec<Finding>,
+    /// z of the top of the stock, and its thickness where it is known.
+    top: f64,
+    thickness: Option<f64>,
+}
+
+fn read(args: &SimulateArgs) -> Result<Read> {
+    let asked = args.dialect.as_deref().map(input::dialect).transpose()?;
+    let size = args.stock.size()?;
+    let mut all = Read {
+        program: Program::default(),
+        sources: Sources(Vec::new()),
+        guesses: Vec::new(),
+        top: 0.0,
+        thickness: size.map(|[_, _, thickness]| thickness),
+    };
+    let mut lines_before = 0;
+    for path in &args.files {
+        let name = || path.display().to_string();
+        let text = input::read_text(path)?;
+        if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
+            bail!("{}: this is a drawing and no program: make one of it with `clopen mill` first", name());
+        }
+        if all.sources.0.is_empty() {
+            all.top = input::stock_top(args.stock.stock_top, &text)?;
+            all.thickness = all.thickness.or(HeaderStock::of(&text).and_then(|stock| stock.thickness));
+        }
+        let top = all.top;
+        let dialect = asked.as_ref().or(Dialect::of_header(&text)).unwrap_or(Dialect::portable());
+        let program = gcode::read_as(&text, dialect).with_context(name)?;
+        if program.motions.is_empty() {
+            bail!("{}: nothing moves: there is no motion in it that could be simulated", name());
+        }
+        let program = with_heights(program, dialect, top + NO_DEPTH, top - all.thickness.unwrap_or(NO_DEPTH));
+        cam::check_tools(&program, &ToolTable::gather(&args.tools, &program), top).with_context(name)?;
+        let findings = gcode::lint(&text, &LintOptions { dialect, stock_top: top });
+        // What follows the end does not run.
+        let is_other = |f: &Finding| f.rule.info().reading != Reading::Exact || f.rule == Rule::AfterEnd;
+        let findings = findings.into_iter().filter(is_other);
+        all.guesses.extend(findings.map(|f| Finding { line: f.line + lines_before, ..f }));
+        match args.files.len() {
+            1 => all.program = program,
+            _ => cam::append(&mut all.program, program, lines_before, &args.tools),
+        }
+        all.sources.0.push(Source { path: path.clone(), lines_before });
+        lines_before += text.lines().count();
+    }
+    Ok(all)
 }
 
 /// Before any work: names that cannot be.
@@ -115,31 +152,34 @@ fn check_targets(args: &SimulateArgs) -> Result<()> {
     {
         bail!("{}: the mesh is an STL: call it {}", stl.display(), stl.with_extension("stl").display());
     }
-    if args.file == Path::new("-") && args.against.against.as_deref() == Some(Path::new("-")) {
-        bail!("program and drawing cannot both come from standard input: name one of them");
+    let inputs = || args.files.iter().chain(&args.against.against);
+    if inputs().filter(|path| path.as_path() == Path::new("-")).count() > 1 {
+        bail!("only one file can come from standard input: name the others");
     }
-    let inputs = [Some(&args.file), args.against.against.as_ref()];
     let targets = [args.output.output.as_ref(), args.output.stl.as_ref()];
     for target in targets.into_iter().flatten() {
         output::keep_folder(target)?;
-        for input in inputs.into_iter().flatten() {
+        for input in inputs() {
             output::keep_input(input, target)?;
         }
     }
     Ok(())
 }
 
-fn stock(args: &SimulateArgs, program: &Program, tools: &ToolTable, top: f64) -> Result<Stock> {
+fn stock(args: &SimulateArgs, program: &Program, tools: &ToolTable, top: f64, thickness: Option<f64>) -> Result<Stock> {
     let found = match (args.stock.size()?, args.stock.corner()?) {
         (Some(size), Some([x, y])) => Some(Stock::new(Point::new(x, y), size, top)),
         (Some(size), None) => Stock::around(program, tools, size, top),
-        (None, _) => Stock::of_cuts(program, tools, top),
+        (None, _) => {
+            let of_cuts = Stock::of_cuts(program, tools, top);
+            of_cuts.map(|stock| Stock { bottom_mm: thickness.map_or(stock.bottom_mm, |t| top - t), ..stock })
+        }
     };
     let Some(stock) = found else {
         bail!(
             "{}: nothing goes below z {top}, so that there is nothing to tell the stock by: say where its top is \
              (--stock-top), or all of it (--stock 100x60x6mm --stock-at 0,0)",
-            args.file.display()
+            args.files.iter().map(|f| f.display().to_string()).collect::<Vec<_>>().join(", ")
         );
     };
     Ok(stock)

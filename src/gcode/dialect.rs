@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::block::Block;
+use super::header;
 use super::rules::Rule;
 use crate::units::nearest_name;
 pub use code_set::{CodeSet, InvalidCode};
@@ -240,9 +240,6 @@ pub static LINUXCNC: LazyLock<Dialect> = LazyLock::new(|| BUILT_IN[1].clone());
 /// What the header that clopen writes says before the name of the dialect.
 pub const DIALECT_COMMENT: &str = "dialect ";
 
-/// The header of a program is looked for in so many lines.
-const HEADER_LINES: usize = 40;
-
 /// A name that no dialect has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("\"{name}\" is no dialect{}: there are {known}; a machine of your own is a file, my-machine.toml", .meant.map_or(String::new(), |m| format!(" (do you mean {m}?)")))]
@@ -285,9 +282,7 @@ impl Dialect {
 
     /// The built-in dialect that the header of a program written by clopen names.
     pub fn of_header(text: &str) -> Option<&'static Dialect> {
-        let blocks = text.lines().take(HEADER_LINES).map(Block::parse);
-        let mut comments = blocks.flat_map(|b| b.comments).skip_while(|c| !c.starts_with("clopen "));
-        let name = comments.find_map(|c| c.strip_prefix(DIALECT_COMMENT).map(str::to_owned))?;
+        let name = header::comments(text).find_map(|c| c.strip_prefix(DIALECT_COMMENT).map(str::to_owned))?;
         BUILT_IN.iter().find(|d| d.name == name.trim())
     }
 

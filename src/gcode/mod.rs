@@ -7,6 +7,7 @@ mod comment;
 mod dialect;
 pub mod grbl_settings;
 mod grid;
+mod header;
 mod interpreter;
 mod lint;
 mod reader;
@@ -18,6 +19,7 @@ pub use dialect::{
     ArcMismatch, CodeSet, CommentStyle, DIALECT_COMMENT, Dialect, DialectError, GRBL, InvalidCode, LINUXCNC,
     MachineKind, SpindleFull, Statement, TimeUnit, Units, UnknownDialect,
 };
+pub use header::HeaderStock;
 pub use lint::{Finding, LOW_TRAVEL, LintOptions, lint};
 pub use reader::{ReadError, read, read_as};
 pub use rules::{RULES, Reading, Rule, RuleInfo, RuleScope, Severity};

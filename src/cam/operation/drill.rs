@@ -66,9 +66,12 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, peck: Option<f64>) -> Resul
     }
     let rings = found.iter().map(|&(c, d)| Ring::circle(c, 0.5 * d.max(diameter)));
     let area = Region::new(rings.collect());
-    let hole = |&(center, d): &(Point, f64)| {
-        let diameter = if work.tool.is_drill { diameter } else { d };
-        Hole { center, diameter, bottom: if work.tool.is_drill { floor } else { work.floor } }
+    let hole = |&(center, d): &(Point, f64)| match work.tool.is_drill {
+        true => {
+            let point = work.tool.height_at(work.tool.radius()).unwrap_or(0.0);
+            Hole { center, diameter, bottom: floor, full_bottom: floor + point }
+        }
+        false => Hole { center, diameter: d, bottom: work.floor, full_bottom: work.floor },
     };
     Ok(Planned {
         toolpath: work.toolpath(moves, found.len()),

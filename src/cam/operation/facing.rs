@@ -10,7 +10,8 @@ const OVERRUN: f64 = 1.2;
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, stepover: f64) -> Result<Planned, OperationError> {
     let bounds = match work.setup.stock.size {
-        Some([width, height]) => {
+        // Where the drawing says what zero is, the stock may lie anywhere: what is faced is what is drawn.
+        Some([width, height]) if work.setup.stock.zero != Origin::Drawing || geometry.area.is_empty() => {
             let size = Vector::new(width, height);
             let corner = match work.setup.stock.zero {
                 Origin::Center => Point::from(-0.5 * size),
@@ -18,7 +19,7 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, stepover: f64) -> Result<Pl
             };
             Bounds::of_points([corner, corner + size])
         }
-        None => geometry.area.bounds(),
+        _ => geometry.area.bounds(),
     };
     if bounds.is_empty() {
         return Err(OperationError::NothingToFace);

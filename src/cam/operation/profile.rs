@@ -143,6 +143,8 @@ impl<'a> Cuts<'a> {
 
     /// The ways along all contours in a good order, with tabs, of which the words are told.
     fn routes(&mut self, contours: &[Contour], asked: Option<&Tabs>) -> Vec<Route> {
+        let cleared = asked.map(|asked| self.off_tabs(contours, asked));
+        let contours = cleared.as_deref().unwrap_or(contours);
         let stops = order(contours, Point::origin());
         let starts = stops.iter().map(|stop| (&contours[stop.contour], contours[stop.contour].entries[stop.entry]));
         let mut routes: Vec<Route> = starts.map(|(contour, entry)| Route::new(contour, &entry)).collect();
@@ -159,6 +161,7 @@ impl<'a> Cuts<'a> {
             if missing > 0 {
                 self.notices.push(Notice::TabsDropped(route.start, missing));
             }
+            self.notices.extend(placed.moved.iter().map(|&[asked, got]| Notice::TabMoved(asked, got)));
             if placed.on_arcs > 0 {
                 self.notices.push(Notice::TabsOnArcs(route.start, placed.on_arcs));
             }
@@ -168,6 +171,29 @@ impl<'a> Cuts<'a> {
             route.tabs = placed.line;
         }
         routes
+    }
+
+    /// The contours, entered where tabs are not asked for by their places: as far from those as can be, where none is far enough.
+    fn off_tabs(&self, contours: &[Contour], asked: &Tabs) -> Vec<Contour> {
+        let TabPlaces::At(points) = &asked.places else { return contours.to_vec() };
+        let strands = Strands::default();
+        let clearance = self.ground(&strands).clearance(asked);
+        let reach = ASTRAY * self.work.tool.diameter;
+        let off = |contour: &Contour| {
+            let on_path = |p: &[f64; 2]| {
+                let nearest = contour.nearest_entry(Point::new(p[0], p[1]))?.point;
+                ((nearest - Point::new(p[0], p[1])).norm() <= reach).then_some(nearest)
+            };
+            let tabs: Vec<Point> = points.iter().filter_map(on_path).collect();
+            let apart = |e: &EntryPlace| tabs.iter().map(|t| (e.point - t).norm()).fold(f64::INFINITY, f64::min);
+            let mut entries: Vec<EntryPlace> =
+                contour.entries.iter().copied().filter(|e| apart(e) >= clearance).collect();
+            if entries.is_empty() {
+                entries.extend(contour.entries.iter().copied().max_by(|a, b| apart(a).total_cmp(&apart(b))));
+            }
+            Contour { entries, path: contour.path.clone() }
+        };
+        contours.iter().map(off).collect()
     }
 
     /// The ways along contours beside `finals`: they start where those start, and pass over the same tabs.

@@ -391,10 +391,12 @@ impl SetupFile {
         text.lines().any(starts)
     }
 
-    /// Sets the spindle speed of tools of which the file says none: of a beam it is the power.
-    pub fn default_spindle_speed(&mut self, speed: f64) {
+    /// Sets what the file does not say of its tools: the spindle speed, which of a beam is the power, and the depth per pass.
+    pub fn default_rates(&mut self, spindle_speed: Option<f64>, depth_per_pass: Length) {
         for tool in &mut self.tool {
-            tool.as_mut().spindle_speed.get_or_insert(speed);
+            let tool = tool.as_mut();
+            tool.spindle_speed = tool.spindle_speed.or(spindle_speed);
+            tool.depth_per_pass.get_or_insert(depth_per_pass);
         }
     }
 }

@@ -9,8 +9,15 @@ pub struct SampleShape {
     pub words: String,
 }
 
-/// A job file for a drawing of this name, with every key explained. It is read as it stands.
-pub fn commented_sample(drawing: &str, shapes: &[SampleShape]) -> String {
+/// A job file for a drawing of this name and a machine of this dialect, with every key explained. It is read as it stands: the shapes
+/// with the numbers `outer`, or all where there are none, are cut out.
+pub fn commented_sample(drawing: &str, dialect: &str, shapes: &[SampleShape], outer: &[usize]) -> String {
+    let select = match outer {
+        [] => "#select = { id = \"plate\" }   # all shapes unless it is said".to_owned(),
+        _ => format!(
+            "select = {{ order = {outer:?} }}   # the others lie on these: give them operations of their own, above this one"
+        ),
+    };
     let mut listed = String::new();
     for shape in shapes {
         // One line a shape, whatever its names hold.
@@ -33,7 +40,7 @@ thickness = 6
 #material = "plywood"        # chooses the feeds of the tools below
 
 [machine]
-dialect = "grbl"             # clopen lint --help lists them; a file of your own: "my-machine.toml"
+dialect = "{dialect}"             # clopen lint --help lists them; a file of your own: "my-machine.toml"
 #settings = "grbl.txt"       # what your machine answers to $$: accelerations, speeds, travel
 #acceleration = [500, 500, 200]
 #rapid = [5000, 5000, 1500]
@@ -76,7 +83,7 @@ depth-per-pass = 1
 kind = "profile"             # profile, pocket, drill, engrave, v-carve, facing or chamfer
 name = "cut out"
 tool = 1                     # by number or name
-#select = {{ id = "plate" }}   # all shapes unless it is said
+{select}
 through = true               # 0.2 mm deeper than the stock is thick, so that nothing hangs on by a film; or depth = 3
 #side = "outside"            # outside of parts and inside of holes; inside; on
 #direction = "climb"         # the part on the right of a spindle that turns clockwise; or conventional
@@ -155,7 +162,10 @@ mod tests {
     #[test]
     fn the_sample_is_read_as_it_stands_and_with_every_key_in_force() {
         let scale = DrawingScale { mm_per_unit: Some(1.0), diagonal: 100.0 };
-        let text = commented_sample("a.svg", &[SampleShape { words: "1 circle \"x\ny\"".into() }]);
+        let text = commented_sample("a.svg", "grbl", &[SampleShape { words: "1 circle \"x\ny\"".into() }], &[]);
+        let some = commented_sample("a.svg", "linuxcnc", &[], &[1, 3]).parse::<SetupFile>().unwrap();
+        assert_eq!(some.operation[0].as_ref().select.order, Some(vec![1, 3]));
+        assert_eq!(some.machine.dialect.as_deref(), Some("linuxcnc"));
         let file: SetupFile = text.parse().unwrap();
         let setup = file.resolve(&JobFile::default(), &scale).unwrap();
         assert_eq!((setup.operations.len(), setup.tools.len()), (1, 1));

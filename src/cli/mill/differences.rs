@@ -180,6 +180,13 @@ impl Cut {
                 Notice::LeadShortened(p, radius) => {
                     (p, "lead", format!("a radius of {radius:.3} mm"), "no room for a larger arc", "a smaller lead")
                 }
+                Notice::OpenLine(p) => {
+                    (p, "line", "not cut".to_owned(), "it is open and has no inside", "a closed line, or engraving")
+                }
+                Notice::TabMoved(p, to) => {
+                    let apart = (to - p).norm();
+                    (p, "tab", format!("{apart:.2} mm away"), "no room where it was asked for", "another place")
+                }
                 Notice::Covered(p) => {
                     (p, "shape", "nothing".to_owned(), "it lies wholly on another one", "a hole of that shape")
                 }

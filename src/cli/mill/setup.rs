@@ -7,7 +7,9 @@ use anyhow::{Context as _, Result, anyhow, bail};
 use super::select::select;
 use super::setup_report::SetupReport;
 use super::setup_saved::time_saved;
-use super::{FormatArg, LASER_POWER, MillArgs, Verdict, cut_free, keep_page, setup_page, stock_edges, target, travel};
+use super::{
+    FormatArg, LAP_DEPTH, LASER_POWER, MillArgs, Verdict, job_order, keep_page, setup_page, stock_edges, target, travel,
+};
 use crate::cam::{
     self, Entry, Geometry, Hole, Notice, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder,
     Setup, SetupFile, Side, Step, Tool, check_amount, check_operation, plan_operation, split_operations,
@@ -16,7 +18,9 @@ use crate::check::{LostFeature, lost_features};
 use crate::cli::engaged::{laps, with_heights};
 use crate::cli::report::gouges;
 use crate::cli::{ExitStatus, input, output};
-use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, MachineKind, Units, WriteOptions};
+use crate::gcode::{
+    self, Arcs, DIALECT_COMMENT, Dialect, Finding, HeaderStock, LintOptions, MachineKind, Units, WriteOptions,
+};
 use crate::io::svg::Shapes;
 use crate::plane::{Point, Region, Vector};
 use crate::preview::{self, DEFAULT_SIZE, Scene};
@@ -43,6 +47,8 @@ pub(super) struct Done<'a> {
     /// The index of the program that they are from.
     pub(super) program: usize,
     pub(super) lost: Vec<LostFeature>,
+    /// How wide the tool cuts.
+    pub(super) width: f64,
     pub(super) path_radius: f64,
 }
 
@@ -72,8 +78,9 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         |file: SetupFile| file.resolve(&args.typed(), &shapes.scale()).with_context(|| job.display().to_string());
     let mut setup = resolve(file.clone())?;
     let (dialect, dialect_file) = input::dialect_beside(&setup.rig.dialect, job)?;
-    if dialect.machine == MachineKind::Laser {
-        file.default_spindle_speed(LASER_POWER);
+    if dialect.machine != MachineKind::Router {
+        let power = Some(LASER_POWER).filter(|_| dialect.machine == MachineKind::Laser);
+        file.default_rates(power, LAP_DEPTH);
         setup = resolve(file)?;
     }
     // All that is read: nothing of it may be written over.
@@ -96,7 +103,7 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     let parts = parts(&setup, &shapes, mm_per_unit, shift);
     let drawn = |o: &Operation, holes: &[Hole]| geometry(o, &shapes, mm_per_unit, shift, holes, &parts);
     let mut planned: Vec<Planned> = Vec::new();
-    let mut worked_on: Vec<Region> = Vec::new();
+    let mut worked_on: Vec<Geometry> = Vec::new();
     let mut holes: Vec<Hole> = Vec::new();
     for operation in &setup.operations {
         let geometry = drawn(operation, &holes).with_context(|| place(operation))?;
@@ -106,23 +113,31 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
             let covered = shapes.covered(&select(&shapes, &operation.select)?);
             plan.notices.extend(covered.into_iter().map(|p| Notice::Covered(p * mm_per_unit + shift)));
         }
+        if !matches!(operation.kind, OperationKind::Facing { .. } | OperationKind::Engrave) {
+            let open = shapes.open_lines(&select(&shapes, &operation.select)?);
+            plan.notices.extend(open.into_iter().map(|p| Notice::OpenLine(p * mm_per_unit + shift)));
+        }
         holes.extend(&plan.holes);
-        worked_on.push(geometry.area);
+        worked_on.push(geometry);
         planned.push(plan);
     }
+    let (out_of_order, loosened) = {
+        let steps = job_order::steps(&setup, &worked_on, &planned);
+        (job_order::out_of_order(&setup, &steps), job_order::loosened(&setup, &steps))
+    };
     let steps = steps(&setup, &planned);
     let written = write(args, &setup, &dialect, options, &steps, &target)?;
     let done = hold_against(&setup, &dialect, planned, &written)?;
+    let tabs_lost = job_order::tabs_lost(&setup, &done);
     let mut unsafe_travel = travel::beyond_travel(&setup, &written);
     unsafe_travel.extend(travel::collisions(&setup, &done, &written));
-    let cut_free = cut_free::cut_free(&setup, &worked_on);
     let mut remarks = stock_edges::beyond(&setup, setup.stock.zero, &done);
     remarks.extend(travel::unknown_ways(&setup, &written));
-    remarks.extend(cut_free::loosened(&setup, &worked_on));
+    remarks.extend(loosened);
     let saved = time_saved(&setup, &dialect, options, &done, &written, &drawn);
 
     // A program may be run by one who has not read the report.
-    let is_withheld = done.iter().any(|d| gouges(d.check.gouge.as_ref()));
+    let is_withheld = done.iter().any(|d| gouges(d.check.gouge.as_ref())) || !unsafe_travel.is_empty();
     let programs = written.iter().filter(|_| !is_withheld);
     let mut contents: Vec<(PathBuf, Vec<u8>)> =
         programs.map(|w| (w.path.clone(), w.text.clone().into_bytes())).collect();
@@ -154,7 +169,8 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         written: &written,
         is_withheld,
         unsafe_travel: &unsafe_travel,
-        cut_free: &cut_free,
+        out_of_order: &out_of_order,
+        tabs_lost: &tabs_lost,
         remarks: &remarks,
         saved: saved.as_ref(),
         files: &files,
@@ -288,9 +304,7 @@ fn header(args: &MillArgs, setup: &Setup, dialect: &Dialect) -> Vec<String> {
         format!("drawing {}", drawing_name(args)),
         format!("{DIALECT_COMMENT}{}", dialect.name),
     ];
-    if let Some(thickness) = setup.stock.thickness {
-        lines.push(format!("stock {thickness} mm thick, top at {} mm", setup.stock.top));
-    }
+    lines.push(HeaderStock { thickness: setup.stock.thickness, top: setup.stock.top }.to_string());
     lines
 }
 
@@ -333,17 +347,26 @@ fn hold_against<'a>(
             }
             let acceleration = setup.rig.limits.acceleration;
             let path_radius = operation.cutting.path_radius_mm(acceleration[0].min(acceleration[1]));
-            let lost = lost(operation, &planned, tool.radius() + path_radius);
-            Done { operation, planned, check, lost, path_radius, run, program }
+            let width = width(operation, &planned, tool);
+            let lost = lost(operation, &planned, 0.5 * width + path_radius);
+            Done { operation, planned, check, lost, width, path_radius, run, program }
         })
         .collect())
+}
+
+/// How wide the tool cuts in the plane of the shapes: a cone that breaks edges, as wide as it is there.
+fn width(operation: &Operation, planned: &Planned, tool: &Tool) -> f64 {
+    match (&operation.kind, &planned.keep) {
+        (OperationKind::Chamfer { .. }, Some(keep)) => 2.0 * keep.distance,
+        _ => tool.diameter,
+    }
 }
 
 /// What the tool cannot make of the shapes, corners aside.
 fn lost(operation: &Operation, planned: &Planned, radius: f64) -> Vec<LostFeature> {
     let is_whole = match operation.kind {
         OperationKind::Profile { side, .. } => side != Side::On,
-        OperationKind::Pocket { .. } => true,
+        OperationKind::Pocket { .. } | OperationKind::Chamfer { .. } => true,
         _ => false,
     };
     let (Some(keep), Ok(radius)) = (planned.keep.as_ref().filter(|_| is_whole), Radius::new(radius)) else {

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::setup::{Done, Written, at};
 use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, Uncut, estimate, uncut};
-use crate::cli::report::{GOUGE_LIMIT, Verdict, describe, gouges};
+use crate::cli::report::{GOUGE_LIMIT, Verdict, describe, gouges, older_one};
 use crate::cli::time_words::{minutes, sharp, time_saved};
 use crate::gcode::{Dialect, MachineKind, Severity};
 use crate::rolling::Topology;
@@ -22,11 +22,13 @@ pub(super) struct SetupReport<'a> {
     pub(super) done: &'a [Done<'a>],
     pub(super) accept_losses: bool,
     pub(super) written: &'a [Written],
-    /// Whether the programs are no files, because one cuts into what must remain.
+    /// Whether the programs are no files, because one cuts into what must remain, into a clamp, or beyond the machine.
     pub(super) is_withheld: bool,
     pub(super) unsafe_travel: &'a [String],
-    /// What is worked on after it has been cut free.
-    pub(super) cut_free: &'a [String],
+    /// What is worked on after it has been cut free, or begins below what is there.
+    pub(super) out_of_order: &'a [String],
+    /// What operations take of the tabs of others.
+    pub(super) tabs_lost: &'a [String],
     /// What else is unusual.
     pub(super) remarks: &'a [String],
     /// Against paths with sharp inside corners; `None` where nothing is rounded, or they cannot be planned.
@@ -64,9 +66,9 @@ impl SetupReport<'_> {
 
     /// What is wrong with the job as a whole, in sentences.
     fn job_failures(&self) -> impl Iterator<Item = &String> {
-        // Tape or a vacuum may hold what is cut free.
-        let cut_free = self.cut_free.iter().filter(|_| !self.accept_losses);
-        self.unsafe_travel.iter().chain(cut_free)
+        // Tape or a vacuum may hold what is cut free, and another program may have cut before.
+        let out_of_order = self.out_of_order.iter().filter(|_| !self.accept_losses);
+        self.unsafe_travel.iter().chain(self.tabs_lost).chain(out_of_order)
     }
 
     /// Whether an operation does what was asked.
@@ -80,7 +82,7 @@ impl SetupReport<'_> {
         let has_edges = self.dialect.machine == MachineKind::Router;
         let mut warnings = if has_edges { self.setup.cutting_warnings() } else { Vec::new() };
         warnings.extend(self.remarks.iter().cloned());
-        warnings.extend(self.cut_free.iter().filter(|_| self.accept_losses).cloned());
+        warnings.extend(self.out_of_order.iter().filter(|_| self.accept_losses).cloned());
         warnings
     }
 
@@ -141,8 +143,10 @@ impl SetupReport<'_> {
             }
         }
         for program in self.written.iter().filter(|_| self.is_withheld) {
-            let why = "a program of this job would cut into the part";
-            let _ = writeln!(text, "{:<24}{}: {why}", "NOT WRITTEN", program.path.display());
+            let why =
+                "a program of this job would cut into the part, or does not stay in the machine and off the clamps";
+            let older = older_one(&program.path);
+            let _ = writeln!(text, "{:<24}{}: {why}{older}", "NOT WRITTEN", program.path.display());
         }
         for file in self.files {
             let _ = writeln!(text, "{:<24}{}", "written", file.display());
@@ -182,7 +186,8 @@ impl SetupReport<'_> {
             "sharp": self.saved.map(sharp),
             "warnings": self.warnings(),
             "beyond_travel": self.unsafe_travel,
-            "cut_free": self.cut_free,
+            "out_of_order": self.out_of_order,
+            "tabs_lost": self.tabs_lost,
             "gouge_limit_mm": GOUGE_LIMIT,
             "good": self.verdict() == Verdict::Good,
             "written": self.files,
@@ -213,7 +218,7 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
     }
     let later = setup.rest_of(done.operation);
     for feature in &done.lost {
-        let words = describe(feature, setup.tool_of(done.operation).diameter, done.path_radius);
+        let words = describe(feature, done.width, done.path_radius);
         match later {
             // The smaller tool is held against the same shapes.
             Some(later) => notes.push(format!("{words}; that is left to \"{}\"", later.label)),
@@ -263,6 +268,13 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
             Notice::LeadSkipped(p) => notes.push(format!("no room for a lead at {}", at(p))),
             Notice::LeadShortened(p, radius) => {
                 notes.push(format!("the lead at {} has room for a radius of {radius:.3} mm only", at(p)))
+            }
+            Notice::OpenLine(p) => failures.push(format!(
+                "the line that begins at {} is open, and nothing is cut along it: close it in the drawing, or engrave it",
+                at(p)
+            )),
+            Notice::TabMoved(p, to) => {
+                notes.push(format!("the tab at {} had to be moved to {}", at(p), at(to)));
             }
             Notice::Covered(p) => failures.push(format!(
                 "the shape around {} lies wholly on another one and changes nothing: draw it as a hole of that shape (one path, \

@@ -13,9 +13,9 @@ use crate::units::{Length, Speed};
 /// The arguments.
 #[derive(Clone, Debug, Args)]
 pub(in crate::cli) struct SimulateArgs {
-    /// The program; - is standard input
-    #[arg(value_name = "FILE")]
-    pub(super) file: PathBuf,
+    /// The program, or several that are run one after the other on the same stock; - is standard input
+    #[arg(value_name = "FILE", required = true)]
+    pub(super) files: Vec<PathBuf>,
     /// A tool by its number: "T1=flat 3.175mm", "2=ball 6mm", "3=v60 6mm tip 0.2mm", "4=drill 3mm"; may be given more
     /// than once, and beats what comments of the program say. 0 is the tool that the program starts with
     #[arg(long = "tool", value_name = "TOOL", allow_hyphen_values = true)]
@@ -64,9 +64,9 @@ pub(super) struct StockArgs {
     /// x,y of its lower left corner [default: what is cut lies in its middle]
     #[arg(long, value_name = "PLACE", allow_hyphen_values = true, requires = "stock")]
     pub(super) stock_at: Option<String>,
-    /// z of its top
-    #[arg(long, value_name = "LENGTH", default_value_t = Length::Millimetres(0.0), allow_hyphen_values = true)]
-    pub(super) stock_top: Length,
+    /// z of its top [default: as the header of a program of clopen says, else 0]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub(super) stock_top: Option<Length>,
     /// How far below the stock tools may go
     #[arg(long, value_name = "LENGTH", default_value_t = Length::Millimetres(crate::cam::DEFAULT_SPOIL), allow_hyphen_values = true)]
     pub(super) spoil: Length,

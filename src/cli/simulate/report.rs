@@ -1,21 +1,25 @@
 //! What came of a simulation, in words and as JSON.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Result;
 use serde_json::json;
 
-use crate::cam::{Against, CutLevel, Event, Gouge, Side, Simulation, Stock, ToolTable};
+use super::sources::Sources;
+use crate::cam::{Against, CutLevel, Event, Gouge, OperationRun, Side, Simulation, Stock, ToolTable};
 use crate::cli::report::GOUGE_LIMIT;
 use crate::gcode::Finding;
 
 /// Events and places named in words; JSON has them all.
 const SHOWN: usize = 12;
 
+/// The width of the column of lines, where they are not longer.
+const LINES_WIDTH: usize = 13;
+
 /// All that is to be told.
 pub(super) struct SimulateReport<'a> {
-    pub(super) input: &'a Path,
+    pub(super) sources: &'a Sources,
     pub(super) tools: &'a ToolTable,
     /// The numbers of the tools that cut.
     pub(super) used: Vec<u32>,
@@ -62,7 +66,7 @@ impl SimulateReport<'_> {
             })
             .collect();
         let value = json!({
-            "program": self.input,
+            "programs": self.sources,
             "tools": tools,
             "tools_not_in_program": self.unknown_to_program,
             "stock": map.stock(),
@@ -91,7 +95,7 @@ impl SimulateReport<'_> {
             let _ = writeln!(text, "{label:<12}{value}");
         };
         let Simulation { map, events, time, .. } = self.simulation;
-        line("program", self.input.display().to_string());
+        line(if self.sources.0.len() == 1 { "program" } else { "programs" }, self.sources.names());
         let Stock { min_x_mm, max_x_mm, min_y_mm, max_y_mm, top_mm, bottom_mm } = *map.stock();
         line(
             "stock",
@@ -128,7 +132,8 @@ impl SimulateReport<'_> {
         }
         self.against_lines(&mut line);
         for finding in self.guesses.iter().take(SHOWN) {
-            line("FOUND", format!("line {}: {} [{}]", finding.line, finding.message, finding.rule));
+            let place = self.sources.words(finding.line);
+            line("FOUND", format!("{place}: {} [{}]", finding.message, finding.rule));
         }
         if self.guesses.len() > SHOWN {
             line("", format!("and {} more like these (--format json lists all)", self.guesses.len() - SHOWN));
@@ -141,7 +146,7 @@ impl SimulateReport<'_> {
             );
         }
         for event in events.iter().take(SHOWN) {
-            line("FOUND", describe(event));
+            line("FOUND", describe(event, self.sources));
         }
         if events.len() > SHOWN {
             line("", format!("and {} more (--format json lists all)", events.len() - SHOWN));
@@ -162,11 +167,16 @@ impl SimulateReport<'_> {
         if operations.is_empty() {
             return line("cuts", "nothing".to_owned());
         }
+        let lines = |o: &OperationRun| {
+            let (file, first) = self.sources.place(o.first_line);
+            format!("{file}{first}-{}", self.sources.place(o.last_line).1)
+        };
         let names = operations.iter().map(|o| o.name.chars().count());
         let width = names.max().unwrap_or(0).max("operation".len());
+        let wide = operations.iter().map(|o| lines(o).chars().count()).max().unwrap_or(0).max(LINES_WIDTH);
         let row = |cells: [&str; 6]| {
             let [name, lines, length, time, z, volume] = cells;
-            format!("{name:<width$}  {lines:>13}  {length:>11}  {time:>12}  {z:>9}  {volume:>11}")
+            format!("{name:<width$}  {lines:>wide$}  {length:>11}  {time:>12}  {z:>9}  {volume:>11}")
         };
         line("", row(["operation", "lines", "cut mm", "time", "z mm", "removed mm3"]));
         for o in operations {
@@ -174,7 +184,7 @@ impl SimulateReport<'_> {
                 "",
                 row([
                     &o.name,
-                    &format!("{}-{}", o.first_line, o.last_line),
+                    &lines(o),
                     &format!("{:.1}", o.cut_length_mm),
                     &duration(o.seconds),
                     &o.deepest_z_mm.map_or("-".to_owned(), |z| format!("{z:.3}")),
@@ -192,7 +202,7 @@ impl SimulateReport<'_> {
                 let verdict = if g.depth_mm > GOUGE_LIMIT { "TOO DEEP, limit" } else { "limit" };
                 let what = if self.side == Side::On { "inside of the outline by " } else { "" };
                 let depth = g.depth_mm;
-                let at = format!("({:.3}, {:.3}), line {}", g.x_mm, g.y_mm, g.line);
+                let at = format!("({:.3}, {:.3}), {}", g.x_mm, g.y_mm, self.sources.words(g.line));
                 line(label, format!("{what}{depth:.4} mm with the centre at {at} ({verdict} {GOUGE_LIMIT} mm)"));
             }
             _ => line(label, "none".to_owned()),
@@ -236,10 +246,11 @@ impl SimulateReport<'_> {
     }
 }
 
-fn describe(event: &Event) -> String {
+fn describe(event: &Event, sources: &Sources) -> String {
+    let (file, first) = sources.place(event.line);
     let lines = match event.last_line {
-        last if last == event.line => format!("line {last}"),
-        last => format!("lines {} to {last}", event.line),
+        last if last == event.line => format!("{file}line {first}"),
+        last => format!("{file}lines {first} to {}", sources.place(last).1),
     };
     let (amount, unit) = (event.amount, event.kind.unit());
     let place = format!("({:.3}, {:.3}, {:.3})", event.x_mm, event.y_mm, event.z_mm);

@@ -1,4 +1,5 @@
 use super::*;
+use crate::gcode::block::Block;
 
 #[test]
 fn every_built_in_file_is_a_dialect() {

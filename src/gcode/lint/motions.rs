@@ -85,7 +85,9 @@ impl State {
             // Without Z nothing is known about heights.
             MotionKind::Rapid if !options.dialect.knows_letter('Z') => {}
             MotionKind::Rapid => {
-                if motion.to.z < top && motion.to.z < motion.from.z {
+                // A rapid that goes nowhere is the first to say how high the tool is: nobody knows what it comes down from.
+                let comes_down = motion.to.z < motion.from.z || motion.to == motion.from;
+                if motion.to.z < top && comes_down {
                     if moves_in_plane || !self.holes.is_open(motion.to.xy(), motion.to.z) {
                         find(Rule::RapidPlunge, format!("to z {:.3}", motion.to.z));
                     }

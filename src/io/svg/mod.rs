@@ -24,6 +24,7 @@ mod error;
 mod fill;
 mod fonts;
 mod gather;
+mod joined;
 mod known;
 mod leftovers;
 mod locate;

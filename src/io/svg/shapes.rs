@@ -8,6 +8,7 @@ use super::collect::Item;
 use super::drawing::Drawing;
 use super::error::{Place, ReadError, Warning};
 use super::gather::{Gathered, gather};
+use super::joined::joined;
 use super::options::{ReadOptions, Strokes};
 use super::viewport::Page;
 use crate::io::unite::{self, Rule};
@@ -84,11 +85,11 @@ impl Shapes {
 
     /// What the shapes with these indices fill, united. Shapes that fill nothing count with the closed lines that they
     /// stroke, all of them together by the even-odd rule: drawings for machines often have no fills, and a circle in a
-    /// rectangle is a hole there.
+    /// rectangle is a hole there. Open lines whose ends meet are a closed one.
     pub fn united(&self, which: &[usize]) -> Region {
         let chosen = || which.iter().filter_map(|&k| self.shapes.get(k));
-        let stroked = chosen().filter(|shape| shape.area.is_empty()).flat_map(|shape| &shape.lines);
-        let closed: Vec<Ring> = stroked.filter(|line| line.is_closed).map(|line| line.ring.clone()).collect();
+        let stroked = self.outlines(which).into_iter();
+        let closed: Vec<Ring> = stroked.filter(|line| line.is_closed).map(|line| line.ring).collect();
         let mut areas: Vec<Vec<Ring>> = chosen().map(|shape| shape.area.rings.clone()).collect();
         areas.push(unite::resolve(closed, Rule::EvenOdd));
         areas.retain(|rings| !rings.is_empty());
@@ -99,19 +100,39 @@ impl Shapes {
         }
     }
 
+    /// The lines of those of the shapes with these indices that fill nothing; open ones joined where their ends meet.
+    fn outlines(&self, which: &[usize]) -> Vec<DrawnLine> {
+        let chosen = which.iter().filter_map(|&k| self.shapes.get(k));
+        let lines = chosen.filter(|shape| shape.area.is_empty()).flat_map(|shape| &shape.lines);
+        let (closed, open): (Vec<&DrawnLine>, Vec<&DrawnLine>) = lines.partition(|line| line.is_closed);
+        closed.into_iter().cloned().chain(joined(&open)).collect()
+    }
+
+    /// Where the open lines among the shapes with these indices begin that no others make a closed one: they have no inside.
+    pub fn open_lines(&self, which: &[usize]) -> Vec<Point> {
+        let open = self.outlines(which).into_iter().filter(|line| !line.is_closed);
+        open.filter_map(|line| line.ring.vertices.first().map(|v| v.point)).collect()
+    }
+
     /// The middles of those of the shapes with these indices that lie wholly on what another one fills: united they change
     /// nothing. Of equal shapes it is the later ones.
     pub fn covered(&self, which: &[usize]) -> Vec<Point> {
-        let filled: Vec<&DrawnShape> =
-            which.iter().filter_map(|&k| self.shapes.get(k)).filter(|shape| !shape.area.is_empty()).collect();
-        let bounds: Vec<Bounds> = filled.iter().map(|shape| shape.area.bounds()).collect();
+        self.covered_shapes(which).into_iter().map(|k| self.shapes[k].area.bounds().center()).collect()
+    }
+
+    /// The indices of the same shapes.
+    pub fn covered_shapes(&self, which: &[usize]) -> Vec<usize> {
+        let is_filled = |k: &usize| self.shapes.get(*k).is_some_and(|shape| !shape.area.is_empty());
+        let filled: Vec<usize> = which.iter().copied().filter(is_filled).collect();
+        let area = |k: usize| &self.shapes[filled[k]].area;
+        let bounds: Vec<Bounds> = (0..filled.len()).map(|k| area(k).bounds()).collect();
         let lies_on = |k: usize, j: usize| {
-            let (inner, outer) = (&filled[k].area, &filled[j].area);
+            let (inner, outer) = (area(k), area(j));
             let is_smaller = inner.area() < outer.area() || (inner == outer && j < k);
             is_smaller && bounds[j].union(bounds[k]) == bounds[j] && outer.covers(inner)
         };
         let is_covered = |k: &usize| (0..filled.len()).any(|j| j != *k && lies_on(*k, j));
-        (0..filled.len()).filter(is_covered).map(|k| bounds[k].center()).collect()
+        (0..filled.len()).filter(is_covered).map(|k| filled[k]).collect()
     }
 
     /// What lengths typed for the drawing are measured by.

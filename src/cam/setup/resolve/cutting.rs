@@ -120,7 +120,8 @@ impl Resolver<'_> {
                 ),
             );
         }
-        let tabs = file.tabs.as_ref().and_then(|tabs| self.tabs(tabs, table, depth - start_depth, tool));
+        let tabs =
+            file.tabs.as_ref().and_then(|tabs| self.tabs(tabs, table, (depth - start_depth, stock.thickness), tool));
         let onion_skin = self.above_zero(place("onion-skin"), file.onion_skin);
         if onion_skin.is_some_and(|skin| skin >= depth - start_depth) {
             self.at(place("onion-skin"), "the onion skin is as thick as the cut is deep");
@@ -170,7 +171,13 @@ impl Resolver<'_> {
         }
     }
 
-    fn tabs(&mut self, file: &TabsFile, table: &Range<usize>, depth: f64, tool: &Tool) -> Option<Tabs> {
+    fn tabs(
+        &mut self,
+        file: &TabsFile,
+        table: &Range<usize>,
+        (depth, thickness): (f64, Option<f64>),
+        tool: &Tool,
+    ) -> Option<Tabs> {
         let place = |key| Place { table, key };
         let said =
             usize::from(file.count.is_some()) + usize::from(file.spacing.is_some()) + usize::from(file.at.is_some());
@@ -220,6 +227,8 @@ impl Resolver<'_> {
         let height = self.above_zero(place("height"), file.height).unwrap_or(DEFAULT_TAB_HEIGHT * depth);
         if height > depth {
             self.at(place("height"), format!("tabs of {height} mm are higher than the cut is deep, {depth} mm"));
+        } else if let Some(thickness) = thickness.filter(|thickness| height > *thickness) {
+            self.at(place("height"), format!("tabs of {height} mm are higher than the stock is thick, {thickness} mm"));
         }
         Some(Tabs { places, width, height })
     }
