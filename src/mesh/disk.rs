@@ -5,6 +5,9 @@ use super::{Point, Vector};
 /// Rounding may make a disk seem farther than it is by less than this part of the square of its distance.
 const DISK_ROUNDING: f64 = 1e-12;
 
+/// The same for this part of the square of the distance from its centre.
+const CENTER_ROUNDING: f64 = 1e-14;
+
 /// A thick disk with the triangles of a node in it, across their mean normal.
 ///
 /// A ball that touches a finely sampled surface is near a great many boxes, each as thick as its triangles are long where the
@@ -43,9 +46,11 @@ impl Disk {
     #[inline]
     pub fn distance2(&self, p: &Point) -> f64 {
         let q = p - self.center;
-        let above = (self.normal.dot(&q).abs() - self.half).max(0.0);
-        let beside = (self.normal.cross(&q).norm() - self.radius).max(0.0);
-        (above * above + beside * beside) * (1.0 - DISK_ROUNDING)
+        let (q2, height) = (q.norm_squared(), self.normal.dot(&q).abs());
+        let above = (height - self.half).max(0.0);
+        let across2 = q2 - height * height;
+        let beside = if across2 <= self.radius * self.radius { 0.0 } else { across2.sqrt() - self.radius };
+        ((above * above + beside * beside) * (1.0 - DISK_ROUNDING) - CENTER_ROUNDING * q2).max(0.0)
     }
 }
 

@@ -1,5 +1,9 @@
 //! Bounding boxes around bounding boxes around triangles: nearest points, and what a segment meets.
 
+mod neighbourhood;
+
+pub use neighbourhood::Neighbourhood;
+
 use super::disk::Disk;
 use super::{Feature, Point, Vector, nearest_on_triangle};
 
@@ -43,6 +47,9 @@ impl Node {
 fn boxes_meet([low, high]: [&Point; 2], [l, h]: [&Point; 2]) -> bool {
     (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k])
 }
+
+/// What rounding makes of a distance from a box is less than this part of it.
+const ROUNDING: f64 = 1e-12;
 
 /// Nodes of so many triangles or fewer have a disk: larger ones are seldom flat, and few.
 const DISK: usize = 1024;
@@ -130,7 +137,12 @@ impl Hierarchy {
 
     /// The nearest point of the surface to `p`, if it is nearer than `within`.
     pub fn nearest(&self, p: Point, within: f64) -> Option<Nearest> {
-        let mut best2 = within * within;
+        self.nearest2(p, within * within)
+    }
+
+    /// The same with the square of the distance.
+    fn nearest2(&self, p: Point, within2: f64) -> Option<Nearest> {
+        let mut best2 = within2;
         let mut best = None;
         let mut stack = [(0u32, 0.0f64); DEPTH];
         let mut top = 0;
@@ -180,6 +192,24 @@ impl Hierarchy {
         )
     }
 
+    /// Whether some triangle with a corner more than `height` above the plane through `base` along the unit vector `up` is nearer to
+    /// `p` than `distance`.
+    pub fn is_nearer_above(&self, p: Point, distance: f64, base: Point, up: Vector, height: f64) -> bool {
+        let limit = distance * distance;
+        let above = |q: &Point| up.dot(&(q - base));
+        let may_be = |node: &Node, disk: &Disk| {
+            let half = 0.5 * (node.high - node.low);
+            let (middle, most) = (above(&nalgebra::center(&node.low, &node.high)), up.abs().dot(&half));
+            let rounding = ROUNDING * (middle.abs() + most);
+            middle + most + rounding > height
+                && node.distance2(&p) * (1.0 - ROUNDING) < limit
+                && disk.distance2(&p) * (1.0 - ROUNDING) < limit
+        };
+        self.any(may_be, |triangle, _| {
+            triangle.iter().any(|q| above(q) > height) && (nearest_on_triangle(p, *triangle).0 - p).norm() < distance
+        })
+    }
+
     /// Whether the open segment from `a` to `b` meets a triangle.
     pub fn is_crossed(&self, a: Point, b: Point) -> bool {
         let along = b - a;
@@ -203,7 +233,7 @@ impl Hierarchy {
         let meets = |l: &Point, h: &Point| (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k]);
         self.any(
             |node, _| meets(&node.low, &node.high),
-            |[a, b, c], face| meets(&a.inf(b).inf(c), &a.sup(b).sup(c)) && visit(face),
+            |[a, b, c], k| meets(&a.inf(b).inf(c), &a.sup(b).sup(c)) && visit(self.faces[k]),
         )
     }
 
@@ -269,8 +299,8 @@ impl Hierarchy {
         }
     }
 
-    /// Whether `hit` holds for a triangle in a box for which `enter` holds.
-    fn any(&self, enter: impl Fn(&Node, &Disk) -> bool, mut hit: impl FnMut(&[Point; 3], u32) -> bool) -> bool {
+    /// Whether `hit` holds for a triangle, given with its place in the order of the leaves, in a box for which `enter` holds.
+    fn any(&self, enter: impl Fn(&Node, &Disk) -> bool, mut hit: impl FnMut(&[Point; 3], usize) -> bool) -> bool {
         let mut stack = [0u32; DEPTH];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
@@ -286,7 +316,7 @@ impl Hierarchy {
                 continue;
             }
             let leaf = node.first as usize..(node.first + node.count) as usize;
-            if leaf.into_iter().any(|k| hit(&self.triangles[k], self.faces[k])) {
+            if leaf.into_iter().any(|k| hit(&self.triangles[k], k)) {
                 return true;
             }
         }
@@ -311,67 +341,4 @@ fn crosses(a: Point, along: Vector, [p, q, s]: &[Point; 3]) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Points without any order, from a fixed sequence.
-    fn scattered(count: usize, seed: u64) -> Vec<Point> {
-        let mut state = seed;
-        let mut next = || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
-        (0..count).map(|_| Point::new(next(), next(), next())).collect()
-    }
-
-    #[test]
-    fn nearest_points_are_those_of_trying_all_triangles() {
-        let points = scattered(600, 7);
-        let faces: Vec<[u32; 3]> = (0..200).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-        let hierarchy = Hierarchy::new(&points, &faces);
-        for p in scattered(100, 8) {
-            let all = faces.iter().map(|f| (p - nearest_on_triangle(p, f.map(|v| points[v as usize])).0).norm());
-            let least = all.fold(f64::INFINITY, f64::min);
-            let found = hierarchy.nearest(p, f64::INFINITY).unwrap();
-            assert!((found.distance - least).abs() < 1e-12);
-            assert!((p - found.point).norm() - found.distance < 1e-12);
-            assert!(hierarchy.is_nearer(p, 1.01 * least) && !hierarchy.is_nearer(p, 0.99 * least));
-            assert!(hierarchy.nearest(p, 0.99 * least).is_none());
-        }
-        assert!(Hierarchy::new(&[], &[]).nearest(Point::origin(), f64::INFINITY).is_none());
-    }
-
-    #[test]
-    fn segments_cross_what_lies_between_their_ends() {
-        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Point::from);
-        let hierarchy = Hierarchy::new(&points, &[[0, 1, 2]]);
-        let crossed = |a: [f64; 3], b: [f64; 3]| hierarchy.is_crossed(a.into(), b.into());
-        assert!(crossed([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]));
-        assert!(crossed([0.2, 0.2, -1.0], [0.3, 0.3, 1.0]));
-        assert!(!crossed([0.2, 0.2, 1.0], [0.2, 0.2, 0.1]));
-        assert!(!crossed([0.7, 0.7, 1.0], [0.7, 0.7, -1.0]));
-        assert!(!crossed([0.2, 0.2, 0.0], [0.2, 0.2, 1.0]), "an end on the triangle does not cross it");
-    }
-
-    #[test]
-    fn boxes_are_asked_for_what_is_in_them() {
-        let points = scattered(300, 7);
-        let faces: Vec<[u32; 3]> = (0..100).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-        let hierarchy = Hierarchy::new(&points, &faces);
-        let (low, high) = (Point::new(0.1, 0.1, 0.1), Point::new(0.3, 0.4, 0.2));
-        let mut found = Vec::new();
-        hierarchy.any_in_box(low, high, |f| {
-            found.push(f);
-            false
-        });
-        found.sort_unstable();
-        let meets = |f: &[u32; 3]| {
-            let [a, b, c] = f.map(|v| points[v as usize]);
-            let (l, h) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
-            (0..3).all(|k| l[k] <= high[k] && h[k] >= low[k])
-        };
-        let expected: Vec<u32> = (0..100).filter(|&k| meets(&faces[k as usize])).collect();
-        assert!(!expected.is_empty());
-        assert_eq!(found, expected);
-    }
-}
+mod tests;

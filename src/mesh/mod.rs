@@ -23,7 +23,7 @@ mod validate;
 
 pub use cut::{Cap, CutError, CutPlane, CutSurface, cut};
 pub use half_edge::{HalfEdgeMesh, NONE, NotManifold};
-pub use hierarchy::{Hierarchy, Nearest};
+pub use hierarchy::{Hierarchy, Nearest, Neighbourhood};
 pub use intersect::{cross, self_intersections, self_intersections_of};
 pub use offset::{FARTHEST, OffsetError, Thickness, offset, offset_part};
 pub use polygon_mesh::PolygonMesh;

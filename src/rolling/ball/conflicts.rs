@@ -102,7 +102,8 @@ pub(super) fn find_since(covering: &Covering, before: Option<(&Covering, &Found)
     let may_miss = |f: u32| covering.is_coarse(f) && !bad.contains_key(&f) && !is_good[f as usize];
     let coarse: Vec<u32> = numbers.into_iter().filter(|&f| may_miss(f)).collect();
     let missed = parallel::map(&coarse, covering.threads, |&f| {
-        let stays = covering.mesh.face(f).iter().all(|&v| covering.is_kept(v)) && !covering.filled.contains(&f);
+        let is_kept = covering.mesh.face(f).iter().all(|&v| covering.is_kept(v));
+        let stays = is_kept && !covering.filled.contains(&f) && !covering.is_clear(f);
         let radius = |p| covering.radius(p);
         let look = || covering.ground.hidden_between(covering.mesh.triangle(f), &radius, covering.edge);
         if stays { look() } else { None }

@@ -4,8 +4,12 @@
 //! a working set of triangles: each keeps the centre out of a half-space, the nearest point of all half-spaces is the next
 //! guess, and what is too near to that joins the set.
 
+use super::cells::Cells;
 use super::half_spaces::{HalfSpace, nearest};
-use crate::mesh::{Feature, HalfEdgeMesh, Hierarchy, NONE, Nearest, Point, Vector, nearest_on_triangle};
+use super::memo::Memo;
+use crate::mesh::{
+    Feature, HalfEdgeMesh, Hierarchy, NONE, Nearest, NotManifold, Point, TriangleMesh, Vector, nearest_on_triangle,
+};
 
 /// Contacts within this part of the radius are as near as the radius.
 const TOUCHING: f64 = 2e-9;
@@ -34,10 +38,25 @@ const WORKING_SET: usize = 14;
 /// Triangles that hold nothing and are farther away than the radius by this part of it are let go.
 const SLACK: f64 = 0.1;
 
+/// So many balls at rest are remembered for each face of the input, and so many at most.
+const RESTS_PER_FACE: usize = 4;
+const MOST_RESTS: usize = 1 << 17;
+
+/// After a step shorter than this part of the radius the ball is where others come to rest, too.
+const FAR: f64 = 0.3;
+
 /// The input that the ball rolls on.
-pub(super) struct Ground<'a> {
-    pub mesh: &'a HalfEdgeMesh,
-    pub hierarchy: &'a Hierarchy,
+#[derive(Clone, Debug)]
+pub(super) struct Ground {
+    pub mesh: HalfEdgeMesh,
+    pub hierarchy: Hierarchy,
+    /// Balls that came to rest.
+    rests: Memo<Question, Option<Rest>>,
+    cells: Cells,
+    /// The unit normals of the faces.
+    face_normals: Vec<Vector>,
+    /// The pseudo-normals of the vertices.
+    vertex_normals: Vec<Vector>,
 }
 
 /// A ball at rest.
@@ -51,6 +70,9 @@ pub(super) struct Rest {
     /// Triangles that hold it; [`NONE`] where fewer do.
     pub contacts: [u32; 3],
 }
+
+/// All that decides where a ball comes to rest, bit for bit: the point, the start and the radius, and the guess.
+type Question = ([u64; 7], [u32; 3]);
 
 /// No contacts.
 pub(super) const UNTOUCHED: [u32; 3] = [NONE; 3];
@@ -67,27 +89,41 @@ impl Rest {
     }
 }
 
-impl Ground<'_> {
+impl Ground {
+    /// Arranges a surface for a ball to roll on.
+    ///
+    /// # Errors
+    /// Where the faces form no surface.
+    pub fn new(surface: &TriangleMesh) -> Result<Ground, NotManifold> {
+        let mesh = HalfEdgeMesh::new(surface.points.clone(), &surface.faces)?;
+        let hierarchy = Hierarchy::new(&surface.points, &surface.faces);
+        let unit = |f: u32| mesh.area_vector(f).try_normalize(0.0).unwrap_or_default();
+        let face_normals: Vec<Vector> = (0..mesh.face_count() as u32).map(unit).collect();
+        let at = |v: u32| {
+            let p = mesh.points[v as usize];
+            let spokes = mesh.spokes(v).map(|h| {
+                let (u, w) = (mesh.target(h), mesh.opposite(h));
+                let (u, w) = (mesh.points[u as usize] - p, mesh.points[w as usize] - p);
+                face_normals[mesh.face_of(h) as usize] * u.cross(&w).norm().atan2(u.dot(&w))
+            });
+            spokes.sum()
+        };
+        let vertex_normals = (0..mesh.points.len() as u32).map(at).collect();
+        let rests = Memo::new((RESTS_PER_FACE * mesh.face_count()).min(MOST_RESTS));
+        Ok(Ground { mesh, hierarchy, rests, cells: Cells::new(), face_normals, vertex_normals })
+    }
+
     /// The outward direction at a point of the surface that is nearest to some other: of a face, an edge or a vertex. Its
     /// sign against the direction to that other point tells inside from outside (Bærentzen and Aanæs, 2005).
     pub fn pseudo_normal(&self, face: u32, feature: Feature) -> Vector {
-        let unit = |f: u32| self.mesh.area_vector(f).try_normalize(0.0).unwrap_or_default();
+        let unit = |f: u32| self.face_normals[f as usize];
         match feature {
             Feature::Face => unit(face),
             Feature::Edge(k) => {
                 let h = 3 * face + u32::from(k);
                 unit(face) + self.mesh.twin(h).map_or(Vector::zeros(), |t| unit(self.mesh.face_of(t)))
             }
-            Feature::Corner(k) => {
-                let v = self.mesh.face(face)[usize::from(k)];
-                let p = self.mesh.points[v as usize];
-                let spokes = self.mesh.spokes(v).map(|h| {
-                    let (u, w) = (self.mesh.target(h), self.mesh.opposite(h));
-                    let (u, w) = (self.mesh.points[u as usize] - p, self.mesh.points[w as usize] - p);
-                    unit(self.mesh.face_of(h)) * u.cross(&w).norm().atan2(u.dot(&w))
-                });
-                spokes.sum()
-            }
+            Feature::Corner(k) => self.vertex_normals[self.mesh.face(face)[usize::from(k)] as usize],
         }
     }
 
@@ -119,6 +155,19 @@ impl Ground<'_> {
     /// Rolls a ball of radius `r` from `start` to the centre nearest to `x`; a guess of what it will touch makes it faster.
     /// `None` where it finds no rest.
     pub fn rest(&self, x: Point, start: Point, r: f64, guess: [u32; 3]) -> Option<Rest> {
+        let question = ([x.x, x.y, x.z, start.x, start.y, start.z, r].map(f64::to_bits), guess);
+        self.rests.get_or(question, || self.roll(x, start, r, guess))
+    }
+
+    /// The point of the surface nearest to `y` if it is nearer than `within`, where the ball has come by a step of so long.
+    fn nearest(&self, y: Point, within: f64, step: f64) -> Option<Nearest> {
+        if step > FAR * within {
+            return self.hierarchy.nearest(y, within);
+        }
+        self.cells.nearest(&self.hierarchy, y, within)
+    }
+
+    fn roll(&self, x: Point, start: Point, r: f64, guess: [u32; 3]) -> Option<Rest> {
         let mut y = start;
         let mut set: Vec<u32> = guess.into_iter().filter(|&t| t != NONE).collect();
         let mut spaces: Vec<HalfSpace> = Vec::with_capacity(WORKING_SET);
@@ -126,7 +175,7 @@ impl Ground<'_> {
         let mut step = f64::INFINITY;
         for round in 0..STEPS {
             if round > 0 || set.is_empty() {
-                match self.hierarchy.nearest(y, r * (1.0 - TOUCHING)) {
+                match self.nearest(y, r * (1.0 - TOUCHING), step) {
                     Some(hit) if !set.contains(&hit.face) => {
                         if set.len() == WORKING_SET {
                             self.drop_slackest(&mut set, &held, y, r);

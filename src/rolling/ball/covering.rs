@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::changes::{Changes, Refused};
 use super::contact::{Ground, Rest, UNTOUCHED};
 use super::remesh::LONGEST;
 use crate::mesh::{HalfEdgeMesh, Point, Vector};
@@ -22,7 +23,7 @@ pub(super) enum State {
 /// A surface with a state for each vertex. What never moves is never touched.
 #[derive(Clone)]
 pub(super) struct Covering<'a> {
-    pub ground: &'a Ground<'a>,
+    pub ground: &'a Ground,
     pub mesh: HalfEdgeMesh,
     pub state: Vec<State>,
     /// Whether each face is other than it was in the input.
@@ -31,6 +32,8 @@ pub(super) struct Covering<'a> {
     pub parent: Vec<u32>,
     /// Faces that fill gaps: they may move though none of their corners does.
     pub filled: BTreeSet<u32>,
+    /// The corners of the coarse faces of the input in which there is nothing that the whole ball cannot touch.
+    pub clear: Vec<Option<[u32; 3]>>,
     /// The part of its radius that the ball has now.
     pub part: f64,
     /// Its radius at a place.
@@ -41,6 +44,18 @@ pub(super) struct Covering<'a> {
     pub threads: usize,
     /// Up to how many vertices long edges are split boldly, if at all.
     pub bold: Option<usize>,
+    /// When its vertices changed.
+    pub changes: Changes,
+    pub refusals: Refusals,
+}
+
+/// What remeshing refused, by half-edges and by vertices.
+#[derive(Clone, Default)]
+pub(super) struct Refusals {
+    pub merge: Refused,
+    pub split: Refused,
+    pub turn: Refused,
+    pub relax: Refused,
 }
 
 impl Covering<'_> {
@@ -57,7 +72,7 @@ impl Covering<'_> {
     }
 
     pub fn is_kept(&self, v: u32) -> bool {
-        self.state[v as usize] == State::Kept
+        matches!(self.state[v as usize], State::Kept)
     }
 
     pub fn point(&self, v: u32) -> Point {
@@ -71,15 +86,17 @@ impl Covering<'_> {
 
     /// The faces at vertices that are not kept and those that fill gaps, in order.
     pub fn active_faces(&self) -> Vec<u32> {
-        let mut faces: Vec<u32> = self.filled.iter().copied().filter(|&f| self.mesh.has_face(f)).collect();
-        for v in 0..self.state.len() as u32 {
-            if !self.is_kept(v) {
-                faces.extend(self.mesh.faces_at(v));
-            }
-        }
-        faces.sort_unstable();
-        faces.dedup();
-        faces
+        let is_active = self.is_active();
+        self.mesh.faces().filter(|&f| is_active[f as usize]).collect()
+    }
+
+    /// Whether each face is at a vertex that is not kept, or fills a gap.
+    fn is_active(&self) -> Vec<bool> {
+        let is_moved: Vec<bool> = self.state.iter().map(|state| !matches!(state, State::Kept)).collect();
+        let at_moved = |f: u32| self.mesh.has_face(f) && self.mesh.face(f).iter().any(|&v| is_moved[v as usize]);
+        let mut is_active: Vec<bool> = (0..self.mesh.face_count() as u32).map(at_moved).collect();
+        self.filled.iter().filter(|&&f| self.mesh.has_face(f)).for_each(|&f| is_active[f as usize] = true);
+        is_active
     }
 
     /// A place where the surface has crumpled, if the active faces have more area than this: one that turns its back on its balls.
@@ -96,17 +113,27 @@ impl Covering<'_> {
 
     /// The edges of the active faces with their lengths, by one half-edge each.
     pub fn active_edges(&self) -> Vec<(f64, u32)> {
-        let of = |f: u32| self.mesh.half_edges(f);
-        let mut edges: Vec<u32> =
-            self.active_faces().into_iter().flat_map(of).map(|h| self.mesh.twin(h).map_or(h, |t| h.min(t))).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        edges.into_iter().map(|h| (self.mesh.length(h), h)).collect()
+        self.edges().into_iter().map(|h| (self.mesh.length(h), h)).collect()
+    }
+
+    /// The same without their lengths.
+    pub fn edges(&self) -> Vec<u32> {
+        let is_active = self.is_active();
+        let has_active = |h: u32| {
+            let faces = [Some(h), self.mesh.twin(h)].into_iter().flatten().map(|x| self.mesh.face_of(x));
+            faces.into_iter().any(|f| is_active[f as usize])
+        };
+        (0..3 * self.mesh.face_count() as u32).filter(|&h| self.mesh.is_edge(h) && has_active(h)).collect()
     }
 
     /// Whether a face has sides longer than what is aimed at.
     pub fn is_coarse(&self, f: u32) -> bool {
         self.mesh.half_edges(f).iter().any(|&h| self.mesh.length(h) > LONGEST * self.edge)
+    }
+
+    /// Whether a face was looked into when the ball was whole, and nothing was found. Vertices that are kept never move.
+    pub fn is_clear(&self, f: u32) -> bool {
+        self.clear.get(f as usize).is_some_and(|corners| *corners == Some(self.mesh.face(f)))
     }
 
     pub fn touch(&mut self, f: u32) {
@@ -138,6 +165,9 @@ impl Covering<'_> {
             }
             self.parent.push(self.parent[self.mesh.face_of(x) as usize]);
         }
+        // All corners of the faces that there are now.
+        let around: Vec<u32> = self.mesh.neighbours(w).chain([w]).collect();
+        around.into_iter().for_each(|v| self.changes.mark(v));
         for x in [Some(h), twin].into_iter().flatten() {
             self.touch(self.mesh.face_of(x));
         }
@@ -149,6 +179,7 @@ impl Covering<'_> {
         let parent = self.parent[f as usize];
         let w = self.mesh.add_vertex(p);
         self.state.push(State::Kept);
+        [a, b, c, w].into_iter().for_each(|v| self.changes.mark(v));
         self.mesh.replace(&[f], &[[a, b, w], [b, c, w], [c, a, w]]).ok()?;
         self.touch(f);
         self.parent.extend([parent; 3]);

@@ -2,7 +2,7 @@
 
 use super::contact::{Ground, UNTOUCHED};
 use super::{BESIDE, TOUCHING};
-use crate::mesh::{Point, Vector, nearest_on_triangle};
+use crate::mesh::{Point, Vector};
 
 /// What would move by less than this many edge lengths stays: samples of a surface that the ball fits are on it, not their
 /// chords.
@@ -17,7 +17,7 @@ const FLAT: f64 = 1e-6;
 /// Radii grow by no more than this for every unit of way: what pins them does so.
 const SLOPE: f64 = 1.0;
 
-impl Ground<'_> {
+impl Ground {
     /// Whether the ball cannot touch a point of the surface with a unit normal, by more than rounding and chords do.
     pub fn is_hidden(&self, x: Point, normal: Vector, r: f64, edge: f64) -> bool {
         if r <= 0.0 || !self.hierarchy.is_nearer(x + normal * r, r * (1.0 - TOUCHING)) {
@@ -35,7 +35,7 @@ impl Ground<'_> {
     pub fn hidden_between(&self, triangle: [Point; 3], radius: &dyn Fn(Point) -> f64, edge: f64) -> Option<Point> {
         let [a, b, c] = triangle;
         let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-        let above = |p: &Point| normal.dot(&(p - a)) > FLAT * edge;
+        let corner = a;
         let mut open = vec![triangle];
         while let Some([a, b, c]) = open.pop() {
             let middle = Point::from((a.coords + b.coords + c.coords) / 3.0);
@@ -51,12 +51,7 @@ impl Ground<'_> {
             let center = middle + normal * r;
             // Balls that touch this part have their centres within this from the one that touches its middle.
             let within = largest + reach * (1.0 + SLOPE);
-            let box_of = Vector::repeat(within);
-            let is_near = self.hierarchy.any_in_box(center - box_of, center + box_of, |g| {
-                let face = self.mesh.triangle(g);
-                face.iter().any(above) && (nearest_on_triangle(center, face).0 - center).norm() < within
-            });
-            if !is_near {
+            if !self.hierarchy.is_nearer_above(center, within, corner, normal, FLAT * edge) {
                 continue;
             }
             // The longest side is cut.

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use super::changes::Changes;
 use super::conflicts::{self, Trouble};
 use super::contact::Ground;
-use super::covering::{Covering, State};
+use super::covering::{Covering, Refusals, State};
 use super::{BESIDE, ClosedSurface, SurfaceOptions, parallel};
-use crate::mesh::{HalfEdgeMesh, Hierarchy, NONE, NotManifold, Point, TriangleMesh, Vector};
+use crate::mesh::{HalfEdgeMesh, NONE, NotManifold, Point, TriangleMesh, Vector};
 
 /// A vertex lands where the ball touches if that is no farther than so many edge lengths.
 const NEAR: f64 = 2.0;
@@ -30,9 +31,7 @@ pub fn land_surface(
     near: &ClosedSurface,
     options: &SurfaceOptions,
 ) -> Result<ClosedSurface, NotManifold> {
-    let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
-    let hierarchy = Hierarchy::new(&input.points, &input.faces);
-    let ground = Ground { mesh: &mesh, hierarchy: &hierarchy };
+    let ground = Ground::new(input)?;
     let field = |p: Point| options.ball(p);
     let start = start(&ground, &field, near, options)?;
     let mut frozen: BTreeSet<u32> = BTreeSet::new();
@@ -76,7 +75,7 @@ pub fn land_surface(
 
 /// The surface as it came, with the balls that its vertices are to land on.
 fn start<'a>(
-    ground: &'a Ground<'a>,
+    ground: &'a Ground,
     field: &'a (dyn Fn(Point) -> f64 + Sync),
     near: &ClosedSurface,
     options: &SurfaceOptions,
@@ -90,11 +89,14 @@ fn start<'a>(
         touched: near.parents.iter().map(|parent| *parent == NONE).collect(),
         parent: (0..near.faces.len() as u32).collect(),
         filled: BTreeSet::new(),
+        clear: Vec::new(),
         part: 1.0,
         field,
         edge: options.edge,
         threads: options.threads,
         bold: None,
+        changes: Changes::default(),
+        refusals: Refusals::default(),
     };
     let moved: Vec<u32> = (0u32..).zip(&near.origins).filter(|(_, origin)| **origin == NONE).map(|(v, _)| v).collect();
     let rests = parallel::map(&moved, options.threads, |&v| {

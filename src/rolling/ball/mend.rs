@@ -146,6 +146,9 @@ impl Covering<'_> {
         for f in gone.iter().copied().chain(first..self.mesh.face_count() as u32) {
             self.touch(f);
         }
+        for &v in corners.iter().chain(new.iter().flatten()) {
+            self.changes.mark(v);
+        }
         for v in corners {
             if !self.mesh.has_vertex(v) {
                 self.state[v as usize] = State::Kept;

@@ -6,12 +6,15 @@
 //! (y - x') / r its normal there. As C_r(C_s(A)) = C_r(A) for s < r, the radius is reached in steps, with the triangles made good in
 //! between ([`remesh`]); contacts are always with the input, so nothing adds up.
 
+mod cells;
+mod changes;
 mod conflicts;
 mod contact;
 mod covering;
 mod half_spaces;
 mod hidden;
 mod land;
+mod memo;
 mod mend;
 mod parallel;
 mod remesh;
@@ -24,15 +27,16 @@ mod roller;
 mod unfold;
 mod zip;
 
+use changes::Changes;
 pub use conflicts::{Conflict, Trouble};
 use contact::Ground;
-use covering::{Covering, State};
+use covering::{Covering, Refusals, State};
 pub use land::land_surface;
 use retry::retry;
 use roll::{Roll, stretches};
 pub use roller::{Roller, Survey, Touch};
 
-use crate::mesh::{HalfEdgeMesh, Hierarchy, NotManifold, Point, TriangleMesh};
+use crate::mesh::{NotManifold, Point, TriangleMesh};
 
 /// The radius grows by this factor from level to level, beginning above so many edge lengths.
 ///
@@ -115,9 +119,7 @@ pub struct ClosedSurface {
 /// # Errors
 /// Where the faces form no surface.
 pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<ClosedSurface, NotManifold> {
-    let mesh = HalfEdgeMesh::new(input.points.clone(), &input.faces)?;
-    let hierarchy = Hierarchy::new(&input.points, &input.faces);
-    let ground = Ground { mesh: &mesh, hierarchy: &hierarchy };
+    let ground = Ground::new(input)?;
     let field = |p: Point| options.ball(p);
     let careful = match cover(input, &ground, &field, options, None) {
         Ok(covering) => retry(covering),
@@ -144,7 +146,7 @@ pub fn close_surface(input: &TriangleMesh, options: &SurfaceOptions) -> Result<C
 /// go on growing without ever becoming the closing.
 fn cover<'a>(
     input: &TriangleMesh,
-    ground: &'a Ground<'a>,
+    ground: &'a Ground,
     field: &'a (dyn Fn(Point) -> f64 + Sync),
     options: &SurfaceOptions,
     bold: Option<usize>,
@@ -157,11 +159,14 @@ fn cover<'a>(
         touched: vec![false; input.faces.len()],
         parent: (0..input.faces.len() as u32).collect(),
         filled: std::collections::BTreeSet::new(),
+        clear: Vec::new(),
         part: 1.0,
         field,
         edge: options.edge,
         threads: options.threads,
         bold,
+        changes: Changes::default(),
+        refusals: Refusals::default(),
     };
     let mut roll = Roll { normals: input.vertex_normals() };
     // What the whole ball can touch, smaller ones can.

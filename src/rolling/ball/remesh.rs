@@ -1,8 +1,10 @@
 //! Triangles of one size and good shape where the surface moved, on the closing itself: every vertex that is put in or moved
 //! is where a ball at rest touches.
 
+use super::changes::Refused;
 use super::contact::{Rest, UNTOUCHED};
 use super::covering::{Covering, State, area_vector, quality};
+use super::parallel;
 use crate::mesh::{NONE, Point, Vector};
 
 /// Edges shorter and longer than so many edge lengths are merged and split.
@@ -52,15 +54,24 @@ impl Covering<'_> {
             if self.mesh.origin(h) == NONE || self.mesh.length(h) >= SHORTEST * self.edge {
                 continue;
             }
-            let both = [self.mesh.twin(h), Some(h)];
-            if let Some(h) = both.into_iter().flatten().find(|&h| self.may_merge(h)) {
-                let (a, b) = (self.mesh.origin(h), self.mesh.target(h));
-                self.mesh.collapse(h);
-                self.state[a as usize] = State::Kept;
-                for f in self.mesh.faces_at(b).collect::<Vec<_>>() {
-                    self.touch(f);
-                }
+            let (a, b) = (self.mesh.origin(h), self.mesh.target(h));
+            let around = self.mesh.neighbours(a).chain(self.mesh.neighbours(b));
+            if self.refusals.merge.at(h).is_some_and(|time| self.changes.none_since(time, around)) {
+                continue;
             }
+            let both = [self.mesh.twin(h), Some(h)];
+            let Some(h) = both.into_iter().flatten().find(|&h| self.may_merge(h)) else {
+                self.refusals.merge.mark(h, self.changes.now());
+                continue;
+            };
+            let (a, b) = (self.mesh.origin(h), self.mesh.target(h));
+            let far: Vec<u32> = self.mesh.neighbours(a).collect();
+            self.mesh.collapse(h);
+            self.state[a as usize] = State::Kept;
+            for f in self.mesh.faces_at(b).collect::<Vec<_>>() {
+                self.touch(f);
+            }
+            far.into_iter().chain([a, b]).for_each(|v| self.changes.mark(v));
         }
     }
 
@@ -97,13 +108,36 @@ impl Covering<'_> {
         let mut edges = self.active_edges();
         edges.retain(|(length, _)| *length > LONGEST * self.edge);
         edges.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        for (_, h) in edges {
-            if let Some((p, state)) = self.middle(h)
-                && self.may_split(h, p, &state)
-            {
+        let middles = self.foreseen(&edges, |covering, &(_, h)| {
+            let is_refused = covering.bold.is_none() && covering.is_refused(&covering.refusals.split, h);
+            if is_refused { None } else { covering.middle(h) }
+        });
+        let start = self.changes.now();
+        for (&(_, h), middle) in edges.iter().zip(middles) {
+            let is_as_foreseen = self.changes.none_since(start, self.quad(h));
+            let middle = if is_as_foreseen { middle } else { self.middle(h) };
+            if let Some((p, state)) = middle.filter(|(p, state)| self.may_split(h, *p, state)) {
                 self.split(h, p, state);
+            } else {
+                self.refusals.split.mark(h, self.changes.now());
             }
         }
+    }
+
+    /// `f` of every item, as things are now.
+    fn foreseen<T: Sync, R: Send>(&self, items: &[T], f: impl Fn(&Self, &T) -> R + Sync) -> Vec<R> {
+        parallel::map(items, self.threads, |item| f(self, item))
+    }
+
+    /// The ends of an edge and the corners opposite.
+    fn quad(&self, h: u32) -> [u32; 4] {
+        let far = self.mesh.opposite(self.mesh.twin(h).unwrap_or(h));
+        [self.mesh.origin(h), self.mesh.target(h), self.mesh.opposite(h), far]
+    }
+
+    /// Whether what was refused of an edge is as it was, with the faces beside it.
+    fn is_refused(&self, refused: &Refused, h: u32) -> bool {
+        refused.at(h).is_some_and(|time| self.changes.none_since(time, self.quad(h)))
     }
 
     /// Whether the faces at an edge stay as they should be when it is cut at a point: none of their parts turns its back on a
@@ -165,15 +199,24 @@ impl Covering<'_> {
     /// Turns edges where that makes better triangles; whether any did.
     fn turn_edges(&mut self) -> bool {
         let mut any = false;
-        for (_, h) in self.active_edges() {
-            if self.may_turn(h) {
-                let t = self.mesh.twin(h);
-                self.mesh.flip(h);
-                for x in [Some(h), t].into_iter().flatten() {
-                    self.touch(self.mesh.face_of(x));
-                }
-                any = true;
+        let edges = self.edges();
+        let may_turn = self
+            .foreseen(&edges, |covering, &h| !covering.is_refused(&covering.refusals.turn, h) && covering.may_turn(h));
+        let start = self.changes.now();
+        for (&h, may_turn) in edges.iter().zip(may_turn) {
+            let is_as_foreseen = self.changes.none_since(start, self.quad(h));
+            if !if is_as_foreseen { may_turn } else { self.may_turn(h) } {
+                self.refusals.turn.mark(h, self.changes.now());
+                continue;
             }
+            let t = self.mesh.twin(h);
+            self.mesh.flip(h);
+            for x in [Some(h), t].into_iter().flatten() {
+                self.touch(self.mesh.face_of(x));
+                self.changes.mark(self.mesh.origin(x));
+                self.changes.mark(self.mesh.opposite(x));
+            }
+            any = true;
         }
         any
     }
@@ -225,13 +268,28 @@ impl Covering<'_> {
         }
         bad.sort_unstable();
         bad.dedup();
-        for v in bad {
-            self.relax_one(v);
+        let proposals = self.foreseen(&bad, |covering, &v| {
+            let time = covering.refusals.relax.at(v);
+            let is_refused = time.is_some_and(|time| covering.is_quiet(v, time));
+            if is_refused { None } else { covering.relaxed(v) }
+        });
+        let start = self.changes.now();
+        for (v, proposal) in bad.into_iter().zip(proposals) {
+            let proposal = if self.is_quiet(v, start) { proposal } else { self.relaxed(v) };
+            if !proposal.is_some_and(|(p, state)| self.relax_one(v, p, state)) {
+                self.refusals.relax.mark(v, self.changes.now());
+            }
         }
     }
 
-    fn relax_one(&mut self, v: u32) {
-        let Some(&rest) = self.rest(v) else { return };
+    /// Whether a vertex and its neighbours are as they were.
+    fn is_quiet(&self, v: u32, since: u64) -> bool {
+        self.changes.none_since(since, self.mesh.neighbours(v).chain([v]))
+    }
+
+    /// Where a vertex would go that is moved to the middle of its faces.
+    fn relaxed(&self, v: u32) -> Option<(Point, State)> {
+        let rest = self.rest(v)?;
         let x = self.point(v);
         let (mut middle, mut weight) = (nalgebra::Vector3::zeros(), 0.0);
         for f in self.mesh.faces_at(v) {
@@ -241,27 +299,35 @@ impl Covering<'_> {
             weight += area;
         }
         if weight <= 0.0 {
-            return;
+            return None;
         }
-        let (q0, s0) = self.fan(v);
+        let (_, s0) = self.fan(v);
         let towards = middle / weight - x.coords;
         let along = if s0 < 0.2 { towards } else { towards - rest.normal * towards.dot(&rest.normal) };
-        let before = self.state[v as usize];
-        let (p, found) = if let State::Ridge(a, b) = &before {
-            let Some((p, a, b)) = self.ridge(x + towards, a, b) else { return };
-            (p, State::Ridge(a, b))
+        if let State::Ridge(a, b) = &self.state[v as usize] {
+            let (p, a, b) = self.ridge(x + towards, a, b)?;
+            Some((p, State::Ridge(a, b)))
         } else {
-            let Some((p, found)) = self.reroll(x + along, &rest) else { return };
-            (p, State::Moved(found))
-        };
+            let (p, found) = self.reroll(x + along, rest)?;
+            Some((p, State::Moved(found)))
+        }
+    }
+
+    /// Moves a vertex if that makes its faces better. Whether it does.
+    fn relax_one(&mut self, v: u32, p: Point, state: State) -> bool {
+        let (x, before) = (self.point(v), self.state[v as usize]);
+        let (q0, s0) = self.fan(v);
         self.mesh.points[v as usize] = p;
-        self.state[v as usize] = found;
+        self.state[v as usize] = state;
         let (q1, s1) = self.fan(v);
         let is_better = (s0 < 0.2 && s1 > s0) || (s1 >= s0.min(RELAXED) - 0.01 && q1 > q0);
         if !is_better || self.mesh.faces_at(v).any(|f| self.dips(self.mesh.triangle(f))) {
             self.mesh.points[v as usize] = x;
             self.state[v as usize] = before;
+            return false;
         }
+        self.changes.mark(v);
+        true
     }
 
     /// The worst quality and agreement of the faces at a vertex.

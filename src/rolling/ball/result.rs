@@ -79,7 +79,7 @@ fn regions(covering: &Covering, count: usize) -> Vec<u32> {
         let (f, g) = (top(&mut above, f), top(&mut above, g));
         above[f.max(g) as usize] = f.min(g);
     };
-    for (mesh, parent) in [(covering.ground.mesh, None), (&covering.mesh, Some(&covering.parent))] {
+    for (mesh, parent) in [(&covering.ground.mesh, None), (&covering.mesh, Some(&covering.parent))] {
         let of = |f: u32| parent.map_or(f, |parent| parent[f as usize]);
         for f in mesh.faces().filter(|&f| covering.is_touched(f)) {
             for t in mesh.half_edges(f).into_iter().filter_map(|h| mesh.twin(h)) {

@@ -24,25 +24,28 @@ impl Roll {
             moving.iter().copied().filter(|&v| covering.mesh.faces_at(v).any(|f| covering.is_coarse(f))).collect();
         self.look(covering, &at_coarse, &mut is_hidden);
         let mut fresh = at_coarse;
-        // The corners of faces that were looked into in vain.
+        // The corners of faces that were looked into in vain, or of what was left of them then.
         let mut is_clear: Vec<Option<[u32; 3]>> = Vec::new();
         for _ in 0..LOOKS {
             self.refine(covering, moving, &mut is_hidden, fresh);
             is_clear.resize(covering.mesh.face_count(), None);
+            covering.clear.resize(covering.mesh.face_count(), None);
             let faces: Vec<u32> = covering
                 .mesh
                 .faces()
                 .filter(|&f| covering.is_coarse(f) && !covering.mesh.face(f).iter().any(|&v| is_hidden[v as usize]))
                 .filter(|&f| is_clear[f as usize] != Some(covering.mesh.face(f)))
                 .collect();
+            let looked_at: Vec<[u32; 3]> = faces.iter().map(|&f| covering.mesh.face(f)).collect();
             let found = parallel::map(&faces, covering.threads, |&f| {
                 covering.ground.hidden_between(covering.mesh.triangle(f), &|p| covering.radius(p), covering.edge)
             });
             fresh = Vec::new();
-            for (f, p) in faces.into_iter().zip(found) {
+            for ((f, before), p) in faces.into_iter().zip(looked_at).zip(found) {
                 let corners = covering.mesh.has_face(f).then(|| covering.mesh.face(f));
                 let Some(p) = p else {
                     is_clear[f as usize] = corners;
+                    covering.clear[f as usize] = corners.filter(|corners| *corners == before);
                     continue;
                 };
                 if let Some(w) = self.put(covering, f, p) {

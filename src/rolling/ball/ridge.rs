@@ -108,10 +108,9 @@ impl Covering<'_> {
 
     /// Puts vertices on the ridges that edges cross.
     pub fn sharpen(&mut self) {
-        let mut edges: Vec<(f64, u32)> = self.active_edges();
-        for (height, h) in &mut edges {
-            *height = self.crossing(self.mesh.origin(*h), self.mesh.target(*h));
-        }
+        let edges = self.edges();
+        let heights = parallel::map(&edges, self.threads, |&h| self.crossing(self.mesh.origin(h), self.mesh.target(h)));
+        let mut edges: Vec<(f64, u32)> = heights.into_iter().zip(edges).collect();
         edges.retain(|(height, _)| *height > WORTH * self.edge);
         edges.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let found = parallel::map(&edges, self.threads, |&(_, h)| {
@@ -157,6 +156,7 @@ impl Covering<'_> {
         let (q1, s1) = self.fan(v);
         let stays_good = q1 >= (QUALITY_KEPT * q0).min(GOOD) && s1 >= s0.min(AGREES) - ROUNDING;
         if stays_good && !self.mesh.faces_at(v).any(|f| self.dips(self.mesh.triangle(f))) {
+            self.changes.mark(v);
             return true;
         }
         self.mesh.points[v as usize] = p;

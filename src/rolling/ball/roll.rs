@@ -102,6 +102,7 @@ impl Roll {
             }
         }
         self.find_lost(covering);
+        covering.changes.mark_all();
     }
 
     /// Where a vertex goes.

@@ -3,13 +3,12 @@
 use super::contact::{Ground, UNTOUCHED};
 use super::remesh::LONGEST;
 use super::{BESIDE, TOUCHING, parallel};
-use crate::mesh::{HalfEdgeMesh, Hierarchy, NotManifold, Point, TriangleMesh, Vector};
+use crate::mesh::{NotManifold, Point, TriangleMesh, Vector};
 
 /// A surface that a ball rolls on from outside.
 #[derive(Clone, Debug)]
 pub struct Roller {
-    mesh: HalfEdgeMesh,
-    hierarchy: Hierarchy,
+    ground: Ground,
 }
 
 /// A ball that came to rest.
@@ -29,27 +28,25 @@ impl Roller {
     /// # Errors
     /// Where the faces form no surface.
     pub fn new(surface: &TriangleMesh) -> Result<Roller, NotManifold> {
-        let mesh = HalfEdgeMesh::new(surface.points.clone(), &surface.faces)?;
-        Ok(Roller { mesh, hierarchy: Hierarchy::new(&surface.points, &surface.faces) })
+        Ok(Roller { ground: Ground::new(surface)? })
     }
 
     /// Where a ball of `radius` that is empty of the surface rests that comes nearest to `p`, looked for from the side to which
     /// the unit vector `normal` points; `None` where it finds no rest on this side.
     pub fn touch(&self, p: Point, normal: Vector, radius: f64) -> Option<Touch> {
         // A point of the surface is nowhere outside of the closing, so a ball that touches it is the nearest.
-        if self.hierarchy.is_nearer(p, TOUCHING * radius) && self.is_free(p, normal, radius) {
+        if self.ground.hierarchy.is_nearer(p, TOUCHING * radius) && self.is_free(p, normal, radius) {
             return Some(Touch { point: p, normal, gap: 0.0 });
         }
-        let ground = Ground { mesh: &self.mesh, hierarchy: &self.hierarchy };
-        let rest = ground.rest(p, p + normal * radius, radius, UNTOUCHED)?;
+        let rest = self.ground.rest(p, p + normal * radius, radius, UNTOUCHED)?;
         let way = rest.center - p;
-        let is_behind = self.hierarchy.is_crossed(p + way * BESIDE, rest.center);
+        let is_behind = self.ground.hierarchy.is_crossed(p + way * BESIDE, rest.center);
         (!is_behind).then(|| Touch { point: rest.point(), normal: rest.normal, gap: way.norm() - radius })
     }
 
     /// Whether the ball of `radius` that touches the point `p` of the surface along `normal` is empty of it.
     fn is_free(&self, p: Point, normal: Vector, radius: f64) -> bool {
-        !self.hierarchy.is_nearer(p + normal * radius, radius * (1.0 - TOUCHING))
+        !self.ground.hierarchy.is_nearer(p + normal * radius, radius * (1.0 - TOUCHING))
     }
 }
 
@@ -77,14 +74,13 @@ impl Roller {
         threads: usize,
     ) -> Survey {
         let faces: Vec<u32> = (0..surface.faces.len() as u32).collect();
-        let ground = Ground { mesh: &self.mesh, hierarchy: &self.hierarchy };
         let looked = parallel::map(&faces, threads, |&f| {
             let doubled = surface.area_vector(f as usize);
             let normal = doubled.try_normalize(0.0)?;
             let [a, b, c] = surface.triangle(f as usize);
             let is_coarse = [b - a, c - b, a - c].iter().any(|side| side.norm() > LONGEST * edge);
             let place = if is_coarse {
-                ground.hidden_between([a, b, c], &|p| radius(p), edge)?
+                self.ground.hidden_between([a, b, c], &|p| radius(p), edge)?
             } else {
                 Point::from((a.coords + b.coords + c.coords) / 3.0)
             };

@@ -42,6 +42,7 @@ struct Outcome {
 impl Covering<'_> {
     /// Flips and collapses edges where faces turn their backs on each other, as long as that leaves fewer of them.
     pub fn unfold(&mut self) {
+        self.changes.mark_all();
         self.thin_out();
         for _ in 0..TURNS {
             let mut any = false;
