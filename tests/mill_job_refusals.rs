@@ -90,6 +90,11 @@ fn what_would_take_all_memory_or_days_is_refused_before_it_is_begun() {
         ("kind = \"pocket\"\ntool = 1\ndepth = 1\nstepover = 0.001", "stepover =", "at least 1 %"),
         ("kind = \"pocket\"\ntool = 1\ndepth = 1\nstepover = 1e-9\npattern = \"raster\"", "stepover =", "at least 1 %"),
         ("kind = \"pocket\"\ntool = 1\ndepth = 1\nstepover = \"1%\"", "[[operation]]", "lie inside of each other"),
+        (
+            "kind = \"pocket\"\ntool = 1\ndepth = 1\nallowance = 0.2\nfinish = false\ncorners = \"dogbone\"",
+            "corners =",
+            "give corners to the operation that finishes",
+        ),
         ("kind = \"facing\"\ntool = 1\ndepth = 1\nstepover = 0.001", "stepover =", "at least 1 %"),
     ]);
     let (text, code) = mill(

@@ -71,12 +71,16 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     }
     if let Some(job) = &args.job {
         let text = input::read_text(job)?;
+        if text.trim().is_empty() {
+            bail!("{}: the file is empty: `clopen mill --init {}` prints one", job.display(), args.input.display());
+        }
         if SetupFile::is_meant(&text) {
             return setup::run(args, job, &text);
         }
     }
     let name = args.input.display();
     let target = target(args);
+    output::keep_file(&target)?;
     let picture = (!args.no_preview && target != Path::new("-")).then(|| target.with_extension("png"));
     output::keep_input(&args.input, &target)?;
     if let Some(picture) = &picture {

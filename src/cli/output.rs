@@ -183,14 +183,22 @@ pub(super) fn keep_folder(target: &Path) -> Result<()> {
     }
 }
 
-/// Refuses to write over what is being read, and a folder in place of a file.
+/// Refuses a folder in place of a file: programs would be written beside it.
+///
+/// # Errors
+/// Names the folder.
+pub(super) fn keep_file(target: &Path) -> Result<()> {
+    match target.is_dir() {
+        true => bail!("{}: this is a folder: name a file in it", target.display()),
+        false => Ok(()),
+    }
+}
+
+/// Refuses to write over what is being read.
 ///
 /// # Errors
 /// Names the file and says what to do.
 pub(super) fn keep_input(input: &Path, target: &Path) -> Result<()> {
-    if target.is_dir() {
-        bail!("{}: this is a folder: name a file in it", target.display());
-    }
     let is_same = match (input.canonicalize(), target.canonicalize()) {
         (Ok(input), Ok(target)) => input == target,
         _ => false,

@@ -59,6 +59,7 @@ pub(super) struct Done<'a> {
 pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus> {
     let name = args.input.display();
     let target = target(args);
+    output::keep_file(&target)?;
     output::keep_input(&args.input, &target)?;
     output::keep_input(job, &target)?;
     keep_page(args)?;

@@ -107,6 +107,14 @@ impl Resolver<'_> {
                 let patterns = [("rings", Pattern::Rings), ("raster", Pattern::Raster)];
                 let pattern = self.word(place("pattern"), file.pattern.as_deref(), &patterns, Pattern::Rings);
                 let stepover = self.stepover(file, place("stepover"), tool.diameter);
+                let stays_rough = cutting.allowance > 0.0 && !cutting.finish;
+                if stays_rough && corners != Corners::Round {
+                    self.at(
+                        place("corners"),
+                        "corners are cut with the walls, and finish = false leaves those rough: give corners to the operation that \
+                         finishes them",
+                    );
+                }
                 OperationKind::Pocket { pattern, stepover, corners, rest_of }
             }
             OperationKindName::Drill => {
