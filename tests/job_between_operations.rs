@@ -108,6 +108,14 @@ fn tabs_stay_where_they_are_asked_for() {
         let near = at.iter().any(|[x, y]| (tx - x).hypot(ty - y) < 1.6);
         assert!(near, "{tab} is not at ({x}, {y})");
     }
+    // Where every side has one, the path is entered between them.
+    let all = operation(
+        "a",
+        &format!("{OUT}; tabs = {{ at = [[40, -10], [70, -30], [40, -50], [10, -30]], width = 4, height = 1.5 }}"),
+    );
+    let run = mill(plate, &[all], &[]);
+    run.is_good();
+    assert!(!run.said.contains("had to be moved"), "{}", run.said);
     // In a corner there is no room for one.
     let corner = operation("a", &format!("{OUT}; tabs = {{ at = [[70, -10], [10, -30]], width = 2, height = 1.5 }}"));
     let run = mill(plate, &[corner], &[]);

@@ -63,7 +63,8 @@ const STOCK: [&str; 4] = ["--stock", "80x60x6mm", "--stock-at", "-15,-15"];
 fn the_second_program_finds_what_the_first_has_left() {
     let folder = programs();
     let simulate = |files: &[&str]| {
-        let output = clopen(folder.path(), &[&["simulate"], files, &STOCK, &["--format", "json"]].concat());
+        let more = ["--cell", "0.075mm", "--format", "json"];
+        let output = clopen(folder.path(), &[&["simulate"], files, &STOCK, &more].concat());
         assert_eq!(output.status.code(), Some(0), "{}", said(&output));
         serde_json::from_slice::<Value>(&output.stdout).unwrap()
     };

@@ -12,7 +12,7 @@ use crate::cam::strands::Strands;
 use crate::cam::tabs::{Ground, TabLine};
 use crate::cam::walk::Walk;
 use crate::cam::{Contour, Entry, Remainder, Side, TabPlaces, Tabs};
-use crate::plane::{Point, Region, Segment};
+use crate::plane::{Link, Point, Region, Segment};
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corners) -> Result<Planned, OperationError> {
     if geometry.area.is_empty() {
@@ -188,8 +188,18 @@ impl<'a> Cuts<'a> {
             let apart = |e: &EntryPlace| tabs.iter().map(|t| (e.point - t).norm()).fold(f64::INFINITY, f64::min);
             let mut entries: Vec<EntryPlace> =
                 contour.entries.iter().copied().filter(|e| apart(e) >= clearance).collect();
-            if entries.is_empty() {
-                entries.extend(contour.entries.iter().copied().max_by(|a, b| apart(a).total_cmp(&apart(b))));
+            if entries.is_empty() && !contour.is_point() {
+                // Between the tabs, on a straight piece if there is one.
+                let walk = Walk::new(contour.path.segments().collect());
+                let place = |k: usize| contour.nearest_entry(walk.point_at(walk.length() * k as f64 / ENTRIES as f64));
+                let places: Vec<EntryPlace> = (0..ENTRIES).filter_map(place).collect();
+                let is_straight = |e: &EntryPlace| matches!(contour.path.segment(e.element).link, Link::Line);
+                let farthest = |among: &mut dyn Iterator<Item = &EntryPlace>| {
+                    among.copied().max_by(|a, b| apart(a).total_cmp(&apart(b)))
+                };
+                let straight =
+                    farthest(&mut places.iter().filter(|e| is_straight(e))).filter(|e| apart(e) >= clearance);
+                entries.extend(straight.or_else(|| farthest(&mut places.iter().chain(&contour.entries))));
             }
             Contour { entries, path: contour.path.clone() }
         };
@@ -262,6 +272,9 @@ impl<'a> Cuts<'a> {
         }
     }
 }
+
+/// So many places along a path are looked at for one between tabs where it can be entered.
+const ENTRIES: usize = 64;
 
 /// How far from a path, in tool diameters, a place for a tab may be: the outline itself is half of one away.
 const ASTRAY: f64 = 2.0;
