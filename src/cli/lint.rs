@@ -63,6 +63,13 @@ pub(super) fn run(args: &LintArgs) -> Result<ExitStatus> {
     let stock_top = input::stock_top(args.stock_top, &text)?;
     let of_header = Dialect::of_header(&text).unwrap_or(Dialect::portable());
     let dialect = asked.as_ref().unwrap_or(of_header);
+    if let Some(name) = Dialect::name_in_header(&text).filter(|name| asked.is_none() && *name != of_header.name) {
+        output::say(&format!(
+            "{}: its dialect, {name}, is not built in: --dialect {name}.toml holds it against that; here it is {}\n",
+            file.display(),
+            dialect.name
+        ));
+    }
     let mut findings = lint(&text, &LintOptions { dialect, stock_top });
     findings.retain(|f| !allowed.contains(&f.rule.info()));
     print(&findings, file, dialect, args.format)?;

@@ -282,8 +282,13 @@ impl Dialect {
 
     /// The built-in dialect that the header of a program written by clopen names.
     pub fn of_header(text: &str) -> Option<&'static Dialect> {
-        let name = header::comments(text).find_map(|c| c.strip_prefix(DIALECT_COMMENT).map(str::to_owned))?;
-        BUILT_IN.iter().find(|d| d.name == name.trim())
+        let name = Dialect::name_in_header(text)?;
+        BUILT_IN.iter().find(|d| d.name == name)
+    }
+
+    /// The name of a dialect, built in or not, in the header of a program written by clopen.
+    pub fn name_in_header(text: &str) -> Option<String> {
+        header::comments(text).find_map(|c| Some(c.strip_prefix(DIALECT_COMMENT)?.trim().to_owned()))
     }
 
     /// Whether words of `letter` are understood; G, M and N always are.

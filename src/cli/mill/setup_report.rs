@@ -7,6 +7,7 @@ use anyhow::Result;
 use serde_json::json;
 
 use super::setup::{Done, Written, at};
+use super::travel;
 use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, Uncut, estimate, uncut};
 use crate::cli::report::{GOUGE_LIMIT, Verdict, describe, gouges, older_one};
 use crate::cli::time_words::{minutes, sharp, time_saved};
@@ -117,6 +118,13 @@ impl SetupReport<'_> {
                 check.tool, check.statistics.cut_length_mm, check.statistics.depth_mm, check.seconds
             );
         }
+        if let Some([x, y, z]) = travel::extents(self.setup, self.done, self.written) {
+            let _ = writeln!(
+                text,
+                "{:<24}x {:.2} to {:.2}, y {:.2} to {:.2}, z {:.2} to {:.2} mm, the tools' width included",
+                "takes up", x[0], x[1], y[0], y[1], z[0], z[1]
+            );
+        }
         let _ = writeln!(text, "{:<24}{}", "time", minutes(self.seconds()));
         if let Some(saved) = self.saved {
             let _ = writeln!(text, "{:<24}{}", "time saved", time_saved(saved));
@@ -183,6 +191,7 @@ impl SetupReport<'_> {
             "dialect": self.dialect.name,
             "operations": operations,
             "programs": programs,
+            "takes_up_mm": travel::extents(self.setup, self.done, self.written),
             "sharp": self.saved.map(sharp),
             "warnings": self.warnings(),
             "beyond_travel": self.unsafe_travel,
@@ -300,12 +309,15 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
             }
             Notice::BottomCleared(step) => notes.push(format!("where the letters are wider than the tool reaches, the tip clears the bottom in paths {step:.2} mm apart")),
             Notice::TabsDropped(p, count) => failures.push(format!(
-                "{count} tabs find no place on the outline at {}: ask for fewer or narrower ones",
+                "{} no place on an outline near {}: ask for fewer, narrower or others",
+                if count == 1 { "a tab finds".to_owned() } else { format!("{count} tabs find") },
                 at(p)
             )),
-            Notice::TabsOnArcs(p, count) => {
-                notes.push(format!("{count} tabs stand on tight arcs of the outline at {}", at(p)))
-            }
+            Notice::TabsOnArcs(p, count) => notes.push(format!(
+                "{} on tight arcs of the outline at {}",
+                if count == 1 { "a tab stands".to_owned() } else { format!("{count} tabs stand") },
+                at(p)
+            )),
         }
     }
     notes.extend(loose_part(done, setup));

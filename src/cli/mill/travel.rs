@@ -2,6 +2,7 @@
 
 use super::setup::{Done, Written, tools_of};
 use crate::cam::{Setup, Tool};
+use crate::plane::Bounds;
 
 /// Which axes would travel farther than the machine can.
 pub(super) fn beyond_travel(setup: &Setup, written: &[Written]) -> Vec<String> {
@@ -17,6 +18,24 @@ pub(super) fn beyond_travel(setup: &Setup, written: &[Written]) -> Vec<String> {
         .filter(|(_, axis)| span(*axis) > travel[*axis])
         .map(|(name, axis)| format!("{name} travels {:.1} mm, and the machine {:.1} mm", span(axis), travel[axis]))
         .collect()
+}
+
+/// What the tools sweep at a feed, as [least, most] along x, y and z in millimetres; `None` where nothing is cut.
+pub(super) fn extents(setup: &Setup, done: &[Done], written: &[Written]) -> Option<[[f64; 2]; 3]> {
+    let mut all = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
+    for program in written {
+        let tools = tools_of(setup, done, program.index);
+        for motion in program.program.motions.iter().filter(|m| m.is_feed()) {
+            let radius = tools.iter().find(|t| t.number == motion.tool || tools.len() == 1).map_or(0.0, Tool::radius);
+            let swept = motion.trace().fold(Bounds::EMPTY.with_point(motion.to.xy()), |b, s| b.union(s.bounds()));
+            let Bounds { min, max } = swept.inflated(radius);
+            let [low, high] = [motion.from.z.min(motion.to.z), motion.from.z.max(motion.to.z)];
+            for (span, [low, high]) in all.iter_mut().zip([[min.x, max.x], [min.y, max.y], [low, high]]) {
+                *span = [span[0].min(low), span[1].max(high)];
+            }
+        }
+    }
+    all.iter().all(|[low, high]| low <= high).then_some(all)
 }
 
 /// The first motion of every program that enters a keepout.
@@ -36,8 +55,9 @@ pub(super) fn collisions(setup: &Setup, done: &[Done], written: &[Written]) -> V
                 Some((m.line, depth, at))
             });
             if let Some((line, depth, at)) = entered {
+                let higher = if keepout.top.is_finite() { ", or travel higher (safe-height)" } else { "" };
                 found.push(format!(
-                    "{}: line {line} takes the tool {depth:.2} mm into keepout {} at ({:.2}, {:.2}): move the clamp, or the part",
+                    "{}: line {line} takes the tool {depth:.2} mm into keepout {} at ({:.2}, {:.2}): move the clamp or the part{higher}",
                     program.path.display(),
                     number + 1,
                     at.x,
