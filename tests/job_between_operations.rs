@@ -213,3 +213,17 @@ fn facing_covers_what_is_drawn_where_the_drawing_says_what_zero_is() {
     let (low, high) = ys.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     assert!((-51.0..-47.0).contains(&low) && (-13.0..-9.0).contains(&high), "y from {low} to {high}");
 }
+
+#[test]
+fn drilling_means_the_circles_where_nothing_is_selected() {
+    let plate = "<rect id=\"a\" x=\"10\" y=\"10\" width=\"60\" height=\"40\"/><circle cx=\"20\" cy=\"20\" r=\"1.5\"/>\
+                 <circle cx=\"40\" cy=\"30\" r=\"4\"/>";
+    let run = mill(plate, &[operation("holes", "kind = \"drill\"; tool = 1; depth = 4")], &["--format", "json"]);
+    run.is_good();
+    let json: Value = serde_json::from_str(&run.said).unwrap();
+    assert_eq!(json["operations"][0]["check"]["holes"], serde_json::json!([2, 2]));
+    let square = "<rect id=\"a\" x=\"10\" y=\"10\" width=\"60\" height=\"40\"/>";
+    let run = mill(square, &[operation("holes", "kind = \"drill\"; tool = 1; depth = 4")], &[]);
+    assert_eq!(run.code, Some(2), "{}", run.said);
+    assert!(run.said.contains("there is no circle to drill"), "{}", run.said);
+}

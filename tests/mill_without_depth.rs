@@ -39,7 +39,8 @@ fn a_beam_that_goes_around_once_a_pass_cuts_free() {
     assert_eq!(row[3], "4", "{text}");
     let length: f64 = row[4].parse().unwrap();
     assert!((length - 4.0 * 140.6).abs() < 4.0, "{text}");
-    assert!(program.contains("M4 S800") && !program.contains('Z'), "{program}");
+    // 800 is the power for a whole millimetre; each of the passes takes 0.8.
+    assert!(program.contains("M4 S640") && !program.contains('Z'), "{program}");
     let (text, _, code) =
         mill(None, &["--dialect", "grbl-laser", "--tool-diameter", "0.2mm", "--spindle-speed", "800"]);
     assert_eq!(code, Some(0), "{text}");
@@ -77,6 +78,22 @@ fn beams_and_pens_have_defaults_of_their_own() {
     let plain = job("grbl-laser", "kind = \"profile\"\nthrough = true").replace("spindle-speed = 800\n", "");
     let (text, program, code) = mill(Some(&plain), &[]);
     assert_eq!(code, Some(0), "{text}");
-    assert!(program.contains("M4 S1000"), "{program}");
+    assert!(program.contains("M4 S800"), "{program}");
     assert!(!text.contains("a tooth"), "{text}");
+}
+
+#[test]
+fn the_power_of_a_beam_follows_the_depth() {
+    let power = |depth: f64| {
+        let engraving = format!("kind = \"engrave\"\ndepth = {depth}");
+        let (text, program, code) = mill(Some(&job("grbl-laser", &engraving)), &[]);
+        assert_eq!(code, Some(0), "{text}");
+        let s = program.lines().find_map(|l| l.strip_prefix("M4 S").map(str::to_owned));
+        s.unwrap_or_else(|| panic!("no power: {program}")).parse::<f64>().unwrap()
+    };
+    assert_eq!([power(1.0), power(0.5), power(0.25)], [800.0, 400.0, 200.0]);
+    // Two laps of 0.75.
+    assert_eq!(power(1.5), 600.0);
+    let (text, program, _) = mill(None, &["--dialect", "grbl-laser", "--spindle-speed", "800", "--depth", "0.5mm"]);
+    assert!(program.contains("M4 S400"), "{text}{program}");
 }

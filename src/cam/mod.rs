@@ -84,7 +84,7 @@ pub use leftover::{LEAST_LEFTOVER, Leftover};
 pub use levels::{CutLevel, LevelError, cut_levels};
 pub use motion::{Comment, Motion, MotionKind, Point3, Program, ProgramUnit, Trace};
 pub use offset::{OffsetError, offset};
-pub use operation::{CutLine, Geometry, Keep, OperationError, Planned, TabPlace, plan_operation};
+pub use operation::{CutLine, Geometry, Keep, OperationError, Planned, TabPlace, circle, plan_operation};
 pub use operation_check::{OperationCheck, check_operation, split_operations, tabs_taken};
 pub use operation_run::{OPERATION_COMMENT, OperationRun};
 pub use path_radius::{PathPlace, TightestTurns, tightest_turns};

@@ -16,6 +16,8 @@ mod rest;
 mod spurs;
 mod v_carve;
 
+pub use drill::circle;
+
 use super::lay::{APPROACH, Laying};
 use super::lead::Room;
 use super::{

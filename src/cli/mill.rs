@@ -2,6 +2,7 @@
 
 mod args;
 mod differences;
+mod drawn;
 mod init;
 mod job_order;
 mod page;
@@ -175,6 +176,11 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
 const LASER_KERF: Length = Length::Millimetres(0.2);
 const PEN_WIDTH: Length = Length::Millimetres(0.5);
 
+/// The power for passes of some thickness, of a beam whose full one cuts `depth_per_pass`: in proportion, in whole steps.
+fn laser_power(full: f64, pass: f64, depth_per_pass: f64) -> f64 {
+    (full * (pass / depth_per_pass).min(1.0)).round().max(1.0)
+}
+
 /// How much deeper a beam gets with every lap.
 const LAP_DEPTH: Length = Length::Millimetres(1.0);
 
@@ -211,8 +217,13 @@ fn read_settings(args: &MillArgs, drawing: &Drawing, target: &Path) -> Result<Se
             typed.tool_diameter.get_or_insert(PEN_WIDTH);
         }
     }
+    let mut job = typed.resolve(&drawing.scale())?;
+    if dialect.machine == MachineKind::Laser {
+        let pass = job.depth / job.pass_heights().len() as f64;
+        job.spindle_speed = laser_power(job.spindle_speed, pass, job.depth_per_pass);
+    }
     Ok(Settings {
-        job: typed.resolve(&drawing.scale())?,
+        job,
         topology: typed.topology.unwrap_or(Topology::Merge),
         dialect,
         options: WriteOptions {

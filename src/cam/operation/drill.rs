@@ -16,8 +16,8 @@ const DRILLED: f64 = 0.02;
 /// What is left between the tool and the bottom that it has drilled when it comes back down, in millimetres.
 const PECK_CLEARANCE: f64 = 0.5;
 
-/// The circle that a ring is: its centre and diameter.
-pub(super) fn circle(ring: &Ring) -> Option<(Point, f64)> {
+/// The circle that a ring is, as drawings write it: its centre and diameter.
+pub fn circle(ring: &Ring) -> Option<(Point, f64)> {
     let bounds = ring.bounds();
     let (center, radius) = (bounds.center(), 0.25 * (bounds.width() + bounds.height()));
     if ring.len() < 2 || radius <= 0.0 || radius.is_nan() {

@@ -117,7 +117,7 @@ through = true               # 0.2 mm deeper than the stock is thick, so that no
 #rest-of = 1                 # only what that larger tool has left, in an operation above, as deep
 
 #[[operation]]
-#kind = "drill"              # circles; wider ones than the tool are bored on a helix
+#kind = "drill"              # all circles unless select says which; wider ones than the tool are bored on a helix
 #tool = 1
 #through = true
 #peck = 2

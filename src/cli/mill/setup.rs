@@ -4,15 +4,16 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, anyhow, bail};
 
-use super::select::select;
+use super::drawn::{chosen, drawn_outlines, geometry, parts, shift};
 use super::setup_report::SetupReport;
 use super::setup_saved::time_saved;
 use super::{
-    FormatArg, LAP_DEPTH, LASER_POWER, MillArgs, Verdict, job_order, keep_page, setup_page, stock_edges, target, travel,
+    FormatArg, LAP_DEPTH, LASER_POWER, MillArgs, Verdict, job_order, keep_page, laser_power, setup_page, stock_edges,
+    target, travel,
 };
 use crate::cam::{
-    self, Entry, Geometry, Hole, Notice, Operation, OperationCheck, OperationKind, Origin, Planned, Program, Remainder,
-    Setup, SetupFile, Side, Step, Tool, check_amount, check_operation, plan_operation, split_operations,
+    self, Entry, Geometry, Hole, Notice, Operation, OperationCheck, OperationKind, Planned, Program, Remainder, Setup,
+    SetupFile, Side, Step, Steps, Tool, check_amount, check_operation, plan_operation, split_operations,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::cli::engaged::{laps, with_heights};
@@ -21,8 +22,7 @@ use crate::cli::{ExitStatus, input, output};
 use crate::gcode::{
     self, Arcs, DIALECT_COMMENT, Dialect, Finding, HeaderStock, LintOptions, MachineKind, Units, WriteOptions,
 };
-use crate::io::svg::Shapes;
-use crate::plane::{Point, Region, Vector};
+use crate::plane::{Point, Region};
 use crate::preview::{self, DEFAULT_SIZE, Scene};
 use crate::reference::Operation as ReferenceOperation;
 use crate::units::Radius;
@@ -94,6 +94,13 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         // Nothing goes down: on a ramp the beam would go around several times in one pass.
         setup.operations.iter_mut().for_each(|o| o.cutting.entry = Entry::Plunge);
     }
+    if dialect.machine == MachineKind::Laser {
+        for cutting in setup.operations.iter_mut().map(|o| &mut o.cutting) {
+            cutting.steps = Steps::Even;
+            let pass = (cutting.depth - cutting.start_depth) / cutting.pass_heights(0.0).len() as f64;
+            cutting.spindle_speed = laser_power(cutting.spindle_speed, pass, cutting.depth_per_pass);
+        }
+    }
     let shift = shift(setup.stock.zero, &shapes, mm_per_unit);
     let options = WriteOptions {
         units: if setup.rig.inches { Units::Inches } else { Units::Millimetres },
@@ -111,11 +118,11 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
         check_amount(&setup, operation, &geometry).with_context(|| place(operation))?;
         let mut plan = plan_operation(&setup, operation, &geometry).with_context(|| place(operation))?;
         if !matches!(operation.kind, OperationKind::Facing { .. }) {
-            let covered = shapes.covered(&select(&shapes, &operation.select)?);
+            let covered = shapes.covered(&chosen(&shapes, operation)?);
             plan.notices.extend(covered.into_iter().map(|p| Notice::Covered(p * mm_per_unit + shift)));
         }
         if !matches!(operation.kind, OperationKind::Facing { .. } | OperationKind::Engrave) {
-            let open = shapes.open_lines(&select(&shapes, &operation.select)?);
+            let open = shapes.open_lines(&chosen(&shapes, operation)?);
             plan.notices.extend(open.into_iter().map(|p| Notice::OpenLine(p * mm_per_unit + shift)));
         }
         holes.extend(&plan.holes);
@@ -213,48 +220,6 @@ fn read_machine_settings(file: &mut SetupFile, job: &Path) -> Result<Option<Path
     };
     file.machine.take(&settings.machine(&cam::Machine::default()), travel, settings.spindle_max);
     Ok(Some(path))
-}
-
-/// What brings the origin to where the job wants it, in millimetres.
-fn shift(zero: Origin, shapes: &Shapes, mm_per_unit: f64) -> Vector {
-    let bounds = shapes.bounds();
-    match zero {
-        Origin::Corner => -bounds.min.coords * mm_per_unit,
-        Origin::Center => -bounds.center().coords * mm_per_unit,
-        Origin::Drawing => Vector::zeros(),
-    }
-}
-
-/// The shapes of an operation in the machine's coordinates.
-fn geometry(
-    operation: &Operation,
-    shapes: &Shapes,
-    scale: f64,
-    shift: Vector,
-    holes: &[Hole],
-    parts: &[Region],
-) -> Result<Geometry> {
-    let chosen = select(shapes, &operation.select)?;
-    let area = shapes.united(&chosen).scaled(scale).translated(shift);
-    let lines = match operation.kind {
-        OperationKind::Engrave => chosen
-            .iter()
-            .flat_map(|&k| &shapes.shapes[k].lines)
-            .map(|line| cam::CutLine { ring: line.ring.scaled(scale).translated(shift), is_closed: line.is_closed })
-            .collect(),
-        _ => Vec::new(),
-    };
-    // What has something in common with the shapes is the same part, or worked on inside.
-    let others = parts.iter().filter(|part| !area.overlaps(part)).flat_map(|part| part.rings.iter().cloned());
-    let others = Region::new(others.collect());
-    Ok(Geometry { area, lines, holes: holes.to_vec(), others })
-}
-
-/// The parts that operations cut out of the stock; none of operations whose selection fails, which is told elsewhere.
-fn parts(setup: &Setup, shapes: &Shapes, scale: f64, shift: Vector) -> Vec<Region> {
-    let cut_out = |o: &&Operation| matches!(o.kind, OperationKind::Profile { side: Side::Outside, .. });
-    let chosen = setup.operations.iter().filter(cut_out).filter_map(|o| select(shapes, &o.select).ok());
-    chosen.flat_map(|chosen| shapes.united(&chosen).scaled(scale).translated(shift).components()).collect()
 }
 
 /// What is done one after the other.
@@ -378,12 +343,6 @@ fn lost(operation: &Operation, planned: &Planned, radius: f64) -> Vec<LostFeatur
         Remainder::Outside => ReferenceOperation::Open,
     };
     lost_features(&keep.part, &keep.kept, radius, closing)
-}
-
-/// The outlines of all shapes in the machine's coordinates.
-fn drawn_outlines(shapes: &Shapes, scale: f64, shift: Vector) -> Region {
-    let rings = (0..shapes.shapes.len()).flat_map(|k| shapes.united(&[k]).rings);
-    Region::new(rings.collect()).scaled(scale).translated(shift)
 }
 
 /// The tools that a program uses.
