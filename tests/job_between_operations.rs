@@ -93,6 +93,30 @@ fn tabs_that_another_operation_takes_fail() {
 }
 
 #[test]
+fn outlines_that_the_tool_clears_need_no_tabs() {
+    let circle = |x: f64, r: f64| format!("M{},30a{r},{r} 0 1 1 {},0a{r},{r} 0 1 1 {},0Z", x - r, 2.0 * r, -2.0 * r);
+    let plate = |small: f64| {
+        let (holes, large) = (circle(25.0, small), circle(50.0, 9.0));
+        format!("<path fill-rule=\"evenodd\" d=\"M10,10H70V50H10Z{holes}{large}\"/>")
+    };
+    let job = operation("a", &format!("{OUT}; tabs = {{ count = 2, width = 2, height = 1 }}"));
+    let count = |run: &Run| {
+        serde_json::from_str::<Value>(&run.said).unwrap()["operations"][0]["tabs"].as_array().unwrap().len()
+    };
+    // Nothing is left of a hole of 5.9 mm by a tool of 3 mm that goes around in it, and a pin of one of 6.4 mm.
+    let run = mill(&plate(2.95), std::slice::from_ref(&job), &["--format", "json"]);
+    run.is_good();
+    assert_eq!(count(&run), 4, "the outline and the large hole");
+    let run = mill(&plate(2.95), std::slice::from_ref(&job), &[]);
+    assert!(run.said.contains("no tabs on one outline: the tool clears all inside"), "{}", run.said);
+    let run = mill(&plate(3.2), std::slice::from_ref(&job), &[]);
+    run.fails("2 tabs find no place");
+    // Where they are named they are asked for.
+    let named = operation("a", &format!("{OUT}; tabs = {{ at = [[25, -27]], width = 2, height = 1 }}"));
+    mill(&plate(2.95), &[named], &[]).fails("a tab finds no place");
+}
+
+#[test]
 fn tabs_stay_where_they_are_asked_for() {
     let plate = "<rect id=\"a\" x=\"10\" y=\"10\" width=\"60\" height=\"40\"/>";
     // The middles of the sides are where paths are entered otherwise.

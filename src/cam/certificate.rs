@@ -1,5 +1,6 @@
 //! What a program does to a part: computed from the program as it was read back, not from what was meant.
 
+use super::both::both;
 use super::gouge::{Gouge, deepest_cut};
 use super::motion::{MotionKind, Program};
 use super::path_radius::{TightestTurns, tightest_turns};
@@ -147,10 +148,13 @@ pub fn certify(program: &Program, part: &Region, kept: &Region, options: &Certif
     let CertifyOptions { tool_radius, remainder, stock_top, floor, machine } = *options;
     let statistics = statistics(program, stock_top);
     let floor = floor.unwrap_or(stock_top - statistics.depth_mm);
+    let deepest = |solid: &Region| deepest_cut(program, solid, remainder, tool_radius, stock_top);
+    let (uncut, [gouge, overcut]) =
+        both(|| uncut(program, part, remainder, tool_radius, floor), || [part, kept].map(deepest));
     Certificate {
-        gouge: deepest_cut(program, part, remainder, tool_radius, stock_top),
-        overcut: deepest_cut(program, kept, remainder, tool_radius, stock_top),
-        uncut: uncut(program, part, remainder, tool_radius, floor),
+        gouge,
+        overcut,
+        uncut,
         path_radius: tightest_turns(program, kept, remainder, stock_top),
         statistics,
         time: estimate(program, &machine),

@@ -62,6 +62,8 @@ pub enum Notice {
     HoleNarrow(Point, f64),
     /// So many tabs found no place on the path that starts here.
     TabsDropped(Point, usize),
+    /// So many outlines have no tabs: the tool clears all that is inside of them, and nothing comes loose.
+    NothingToHold(usize),
     /// So many tabs stand on tight arcs.
     TabsOnArcs(Point, usize),
 }

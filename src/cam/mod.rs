@@ -11,12 +11,14 @@
 //! Refused: regions with concave features tighter than the tool, jobs with values that make no sense.
 
 mod against;
+mod both;
 mod certificate;
 mod chamfer;
 mod cone_gouge;
 mod contour;
 mod entry;
 mod event;
+mod feeds;
 mod fit;
 mod gouge;
 mod height_map;
@@ -62,6 +64,7 @@ mod v_carve;
 mod walk;
 
 pub use against::{Against, AgainstOptions, against};
+pub(crate) use both::both;
 pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, certify, statistics};
 pub use chamfer::{Chamfer, ChamferError, chamfer_depth};
 pub use cone_gouge::deepest_carving;

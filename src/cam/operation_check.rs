@@ -4,8 +4,10 @@
 //! motions that the text asks for.
 
 use super::Side;
+use super::both::both;
 use super::certificate::{ProgramStatistics, statistics};
 use super::cone_gouge::deepest_carving;
+use super::feeds::Feeds;
 use super::gouge::{Gouge, deepest_cut};
 use super::islands::{Island, islands};
 use super::motion::{Motion, Program};
@@ -88,12 +90,6 @@ pub fn check_operation(
     let against = |f: &dyn Fn(&Keep) -> Option<Gouge>| planned.keep.as_ref().and_then(f);
     let statistics = statistics(program, stock_top);
     let is_through_all = |side: Side| side != Side::On;
-    let uncut = match (&operation.kind, &planned.keep) {
-        (OperationKind::Profile { side, .. }, Some(keep)) if is_through_all(*side) => {
-            Some(uncut(program, &keep.part, keep.remainder, keep.distance, keep.floor))
-        }
-        _ => None,
-    };
     let islands = match (&operation.kind, &planned.keep) {
         // What a larger tool has cut before is no part of this program.
         (OperationKind::Pocket { rest_of: None, .. } | OperationKind::Drill { .. }, Some(keep)) => {
@@ -101,6 +97,7 @@ pub fn check_operation(
         }
         _ => Vec::new(),
     };
+    let feeds = Feeds::new(program);
     let cutting = &operation.cutting;
     let heights: Vec<f64> = match operation.kind {
         OperationKind::Profile { .. } | OperationKind::Pocket { .. } => {
@@ -111,27 +108,35 @@ pub fn check_operation(
         }
         _ => Vec::new(),
     };
+    let uncut = || match (&operation.kind, &planned.keep) {
+        (OperationKind::Profile { side, .. }, Some(keep)) if is_through_all(*side) => {
+            Some(uncut(program, &keep.part, keep.remainder, keep.distance, keep.floor))
+        }
+        _ => None,
+    };
+    let gouge = || match operation.kind {
+        OperationKind::VCarve { .. } => {
+            against(&|k| deepest_carving(program, &k.part, tool, stock_top - cutting.start_depth))
+        }
+        _ => against(&|k| deepest_cut(program, &k.part, k.remainder, k.distance, stock_top)),
+    };
+    let beside = || against(&|k| beside(program, k, &operation.kind, tool, stock_top));
+    let deepest = || gouge().into_iter().chain(beside()).max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm));
+    let overcut = || match operation.kind {
+        OperationKind::VCarve { .. } => None,
+        _ => against(&|k| deepest_cut(program, &k.kept, k.remainder, k.distance, stock_top)),
+    };
+    let (uncut, (gouge, overcut)) = both(uncut, || (deepest(), overcut()));
     OperationCheck {
         label: operation.label.clone(),
         tool: tool.number,
         seconds: motion_seconds(program, machine).iter().sum(),
-        gouge: match operation.kind {
-            OperationKind::VCarve { .. } => {
-                against(&|k| deepest_carving(program, &k.part, tool, stock_top - cutting.start_depth))
-            }
-            _ => against(&|k| deepest_cut(program, &k.part, k.remainder, k.distance, stock_top)),
-        }
-        .into_iter()
-        .chain(against(&|k| beside(program, k, &operation.kind, tool, stock_top)))
-        .max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm)),
-        overcut: match operation.kind {
-            OperationKind::VCarve { .. } => None,
-            _ => against(&|k| deepest_cut(program, &k.kept, k.remainder, k.distance, stock_top)),
-        },
+        gouge,
+        overcut,
         uncut,
         islands,
-        tabs: [planned.tabs.len(), planned.tabs.iter().filter(|tab| stands(program, tab, tool.radius())).count()],
-        holes: [planned.holes.len(), planned.holes.iter().filter(|hole| is_open(program, hole)).count()],
+        tabs: [planned.tabs.len(), planned.tabs.iter().filter(|tab| stands(&feeds, tab, tool.radius())).count()],
+        holes: [planned.holes.len(), planned.holes.iter().filter(|hole| is_open(&feeds, hole)).count()],
         passes: [heights.len(), heights_reached(program, &heights)],
         statistics,
     }
@@ -161,39 +166,38 @@ fn heights_reached(program: &Program, heights: &[f64]) -> usize {
 }
 
 /// Whether some motion passes over a tab, and none, not even beside it, takes its middle away.
-fn stands(program: &Program, tab: &super::TabPlace, radius: f64) -> bool {
+fn stands(feeds: &Feeds, tab: &super::TabPlace, radius: f64) -> bool {
     let reach = (radius - ON_TAB).max(ON_TAB);
-    let mut is_passed = false;
-    for motion in program.motions.iter().filter(|m| m.is_feed()) {
-        let near = |distance: f64| motion.trace().any(|s| s.is_nearer(tab.at, distance));
-        if motion.lowest() < tab.top - TAB_ROUNDING {
-            if near(reach) {
-                return false;
-            }
-        } else {
-            is_passed = is_passed || near(ON_TAB);
-        }
-    }
-    is_passed
+    let passes = |motion: &Motion, distance: f64| motion.trace().any(|s| s.is_nearer(tab.at, distance));
+    let is_over = |motion: &Motion| motion.lowest() >= tab.top - TAB_ROUNDING;
+    !feeds.any_near(tab.at, reach, |motion| !is_over(motion) && passes(motion, reach))
+        && feeds.any_near(tab.at, ON_TAB, |motion| is_over(motion) && passes(motion, ON_TAB))
 }
 
 /// How many of the tabs, on a path of a tool of `radius`, lose what they hold on to or their middle to the motions of another
 /// program with `tool`.
 pub fn tabs_taken(tabs: &[super::TabPlace], radius: f64, program: &Program, tool: &super::Tool) -> usize {
-    let takes = |motion: &Motion, tab: &super::TabPlace| {
-        let below = tab.top - TAB_ROUNDING - motion.lowest();
-        let reach = radius + tool.radius_at(below) - ON_TAB;
-        below > 0.0 && motion.trace().any(|s| s.is_nearer(tab.at, reach))
+    let feeds = Feeds::new(program);
+    let lowest = feeds.lowest();
+    // How far beside a tab a motion at a height takes something of it.
+    let reach = |tab: &super::TabPlace, height: f64| {
+        let below = tab.top - TAB_ROUNDING - height;
+        (below > 0.0).then(|| radius + tool.radius_at(below) - ON_TAB)
     };
-    let feeds: Vec<&Motion> = program.motions.iter().filter(|m| m.is_feed()).collect();
-    tabs.iter().filter(|tab| feeds.iter().any(|motion| takes(motion, tab))).count()
+    let is_taken = |tab: &&super::TabPlace| {
+        reach(tab, lowest).is_some_and(|farthest| {
+            feeds.any_near(tab.at, farthest, |motion| {
+                reach(tab, motion.lowest()).is_some_and(|reach| motion.trace().any(|s| s.is_nearer(tab.at, reach)))
+            })
+        })
+    };
+    tabs.iter().filter(is_taken).count()
 }
 
 /// Whether some motion at a feed reaches the bottom of a hole.
-fn is_open(program: &Program, hole: &super::Hole) -> bool {
+fn is_open(feeds: &Feeds, hole: &super::Hole) -> bool {
     let reach = IN_HOLE * 0.5 * hole.diameter;
-    program
-        .motions
-        .iter()
-        .any(|m| m.is_feed() && (m.to.xy() - hole.center).norm() <= reach && m.to.z <= hole.bottom + TAB_ROUNDING)
+    feeds.any_near(hole.center, reach, |m| {
+        (m.to.xy() - hole.center).norm() <= reach && m.to.z <= hole.bottom + TAB_ROUNDING
+    })
 }

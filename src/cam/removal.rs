@@ -22,8 +22,8 @@ const SKIN: f64 = 0.004;
 /// Places thinner than this, in millimetres, are rounding and not left standing.
 pub const LEAST_UNCUT_DEPTH: f64 = 0.012;
 
-/// Chord error of the overlay as a fraction of the tool's radius.
-const RELATIVE_FLATTENING: f64 = 1e-4;
+/// Chord error of the overlay in millimetres: hairs of it stay within the skin.
+const FLATTENING: f64 = 0.1 * SKIN;
 
 /// Lines whose ends are this near to one line are taken as one, in millimetres: half of what three decimals round away.
 const STRAIGHTNESS: f64 = 5e-4;
@@ -86,7 +86,7 @@ pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor:
     let frame = reach.inflated(4.0 * paths.iter().map(|(_, radius)| *radius).fold(0.0, f64::max));
     let mut cut = Vec::new();
     for (paths, radius) in &paths {
-        let stroke = Stroke { radius: *radius, tolerance: radius * RELATIVE_FLATTENING };
+        let stroke = Stroke { radius: *radius, tolerance: FLATTENING };
         for path in paths {
             match path.as_slice() {
                 // A plunge.
@@ -96,7 +96,7 @@ pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor:
         }
     }
     // The part with its skin.
-    let skin = Stroke { radius: SKIN, tolerance: 0.1 * SKIN };
+    let skin = Stroke { radius: SKIN, tolerance: FLATTENING };
     if remainder == Remainder::Outside {
         cut.push(rectangle(frame));
     }
@@ -170,15 +170,16 @@ fn is_on_frame(p: Point, frame: &Bounds) -> bool {
     near(p.x, frame.min.x) || near(p.x, frame.max.x) || near(p.y, frame.min.y) || near(p.y, frame.max.y)
 }
 
-/// The point of some edges farthest from the part, at least as far as `deepest`. An edge is given by its ends with their
-/// distances; between them no distance exceeds half the sum of these and the length.
+/// The point of some edges farthest from the part, at least as far as `deepest`; not looked for where all of them are nearer
+/// than what counts as left. An edge is given by its ends with their distances; between them no distance exceeds half the
+/// sum of these and the length.
 fn deepest_along(mut edges: Vec<(Point, f64, Point, f64)>, mut deepest: (f64, Point), solid: &Solid) -> (f64, Point) {
     // A long piece of even depth has no deepest point: then nearly the deepest is enough.
     const ACCURACY: f64 = 1e-3;
     const MOST_LOOKS: usize = 2000;
     for _ in 0..MOST_LOOKS {
         let Some((p, at_p, q, at_q)) = edges.pop() else { break };
-        if 0.5 * (at_p + at_q + (q - p).norm()) <= deepest.0 * (1.0 + ACCURACY) {
+        if 0.5 * (at_p + at_q + (q - p).norm()) <= (deepest.0 * (1.0 + ACCURACY)).max(LEAST_UNCUT_DEPTH) {
             continue;
         }
         let middle = nalgebra::center(&p, &q);
@@ -216,6 +217,11 @@ fn place(shape: &[Polygon], solid: &Solid) -> Option<UncutPlace> {
             edges.push((*p, distances[i], q, distances[next]));
         }
     }
+    let area = 0.5 * doubled_area + SKIN * contact;
+    // A hair of the overlay on the tool's path can be far from the part, and is nothing.
+    if area <= LEAST_UNCUT_DEPTH * LEAST_UNCUT_DEPTH {
+        return None;
+    }
     deepest = deepest_along(edges, deepest, solid);
     // Surrounded by the part, as an unreached hole is, a piece is thickest somewhere inside.
     if contact > MOSTLY * perimeter {
@@ -226,9 +232,7 @@ fn place(shape: &[Polygon], solid: &Solid) -> Option<UncutPlace> {
         }
     }
     let (depth, at) = deepest;
-    let area = 0.5 * doubled_area + SKIN * contact;
-    // A hair of the overlay on the tool's path can be far from the part, and is nothing.
-    (depth > LEAST_UNCUT_DEPTH && area > LEAST_UNCUT_DEPTH * LEAST_UNCUT_DEPTH).then_some(UncutPlace {
+    (depth > LEAST_UNCUT_DEPTH).then_some(UncutPlace {
         x_mm: at.x,
         y_mm: at.y,
         area_mm2: area,

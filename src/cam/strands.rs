@@ -16,6 +16,7 @@ pub(super) struct Strands {
 #[derive(Clone, Copy, Debug)]
 struct Strand {
     segment: Segment,
+    bounds: Bounds,
     /// The number of its path.
     path: usize,
     /// Length of the path up to the element.
@@ -30,7 +31,7 @@ impl Strands {
         let whole = segments.iter().map(Segment::length).sum();
         let mut before = 0.0;
         for &segment in segments {
-            self.elements.push(Strand { segment, path, before, whole });
+            self.elements.push(Strand { segment, bounds: segment.bounds(), path, before, whole });
             before += segment.length();
         }
     }
@@ -38,7 +39,7 @@ impl Strands {
     /// Those that may pass within `distance` of something in `bounds`.
     pub(super) fn near(&self, bounds: Bounds, distance: f64) -> Strands {
         let reached = bounds.inflated(distance);
-        let elements = self.elements.iter().filter(|strand| strand.segment.bounds().overlaps(&reached));
+        let elements = self.elements.iter().filter(|strand| strand.bounds.overlaps(&reached));
         Strands { elements: elements.copied().collect() }
     }
 

@@ -125,7 +125,7 @@ fn classify(piece: &Piece, components: &Components, is_closing: bool, r: f64, fo
     if !(vanished || merges || is_gap) {
         return;
     }
-    let InscribedCircle { center, radius } = inscribed_circle(&piece.outline);
+    let InscribedCircle { center, radius, .. } = inscribed_circle(&piece.outline);
     let (place, width, area) = (Place::from(center), 2.0 * radius, piece.outline.area());
     if vanished {
         found.push(if is_closing {

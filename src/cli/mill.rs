@@ -5,7 +5,9 @@ mod differences;
 mod drawn;
 mod init;
 mod job_order;
+mod notice_words;
 mod page;
+mod saved;
 mod select;
 mod setup;
 mod setup_page;
@@ -23,8 +25,8 @@ use super::engaged::{laps, with_heights};
 use super::report::{MillReport, Verdict, gouges};
 use super::{ExitStatus, input, output};
 use crate::cam::{
-    self, Certificate, CertifyOptions, Entry, Job, JobFile, Machine, OffsetError, PathRadius, PlanError, Program,
-    Remainder, SetupFile, Side, TimeSaved, Tool, Toolpath,
+    self, Certificate, CertifyOptions, Entry, Job, JobFile, Machine, OffsetError, PlanError, Program, Remainder,
+    SetupFile, Side, Tool, Toolpath,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, MachineKind, Units, WriteOptions};
@@ -35,6 +37,7 @@ use crate::reference::Operation;
 use crate::rolling::{self, Topology};
 use crate::units::{Length, Radius};
 pub(super) use args::MillArgs;
+use notice_words::MOST_ALIKE;
 
 /// What the flags and the job file say together.
 struct Settings {
@@ -104,20 +107,29 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     if let Some(note) = args.reading.scale_note(&drawing.page) {
         output::say(&format!("clopen: {name}: {note}\n"));
     }
-    let covered = args.reading.covered(&args.input);
-    for p in &covered {
+    let settings = read_settings(args, &drawing, &target)?;
+    let job = &settings.job;
+    let part = drawing.region.scaled(mm_per_unit);
+    let ((covered, plan), sharp) = cam::both(
+        || (args.reading.covered(&args.input), make_plan(&settings, &part)),
+        || saved::sharp_path(&settings, &part),
+    );
+    let told = if covered.len() > MOST_ALIKE + 1 { MOST_ALIKE } else { covered.len() };
+    for p in &covered[..told] {
         output::say(&format!(
             "clopen: {name}: the shape around ({:.3}, {:.3}) of the drawing, y up, lies wholly on another one and changes nothing: a hole is \
              drawn as part of the same path, with fill-rule=\"evenodd\"\n",
             p.x, p.y
         ));
     }
-    let settings = read_settings(args, &drawing, &target)?;
-    let job = &settings.job;
-    let part = drawing.region.scaled(mm_per_unit);
-    let plan = make_plan(&settings, &part).with_context(|| name.to_string())?;
-    let checked = check(args, &settings, &plan)?;
-    let saved = time_saved(&settings, &part, &plan, &checked.program);
+    if told < covered.len() {
+        output::say(&format!("clopen: {name}: the same of {} more shapes\n", covered.len() - told));
+    }
+    let mut plan = plan.with_context(|| name.to_string())?;
+    let (checked, lost) = cam::both(|| check(args, &settings, &plan), || lost(job, &plan));
+    let checked = checked?;
+    plan.lost = lost?;
+    let saved = sharp.map(|sharp| sharp.saves(job, &plan, &checked.program));
 
     let gouges = gouges(checked.certificate.gouge.as_ref());
     let mut contents = Vec::new();
@@ -253,7 +265,6 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
             if size < 0.1 { format!("{size:.1e}") } else { format!("{size:.1}") }
         );
     }
-    let radius = job.closing_radius();
     let (closed, toolpath, contradictions) = shape(settings, part)?;
     // From here on in the machine's coordinates, which are those of the certificate and of the picture.
     let part = part.translated(toolpath.translation);
@@ -262,13 +273,21 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
         Side::Inside => closed.reversed(),
     }
     .translated(toolpath.translation);
+    Ok(Plan { part, kept, toolpath, lost: Vec::new(), contradictions })
+}
+
+/// What the closing by the tool and the path radius takes of the part.
+fn lost(job: &Job, plan: &Plan) -> Result<Vec<LostFeature>> {
+    let radius = job.closing_radius();
+    if radius <= 0.0 {
+        return Ok(Vec::new());
+    }
     // Seen from the drawing: inside, it is the tool's pocket that is opened.
     let operation = match job.side {
         Side::Outside | Side::On => Operation::Close,
         Side::Inside => Operation::Open,
     };
-    let lost = if radius > 0.0 { lost_features(&part, &kept, Radius::new(radius)?, operation) } else { vec![] };
-    Ok(Plan { part, kept, toolpath, lost, contradictions })
+    Ok(lost_features(&plan.part, &plan.kept, Radius::new(radius)?, operation))
 }
 
 /// What stays, closed by the tool and the path radius, and the way around it; and how many contradictions rounding left.
@@ -337,23 +356,6 @@ fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
 
 fn machine(job: &Job) -> Machine {
     Machine { acceleration: [job.acceleration; 3], ..Machine::default() }
-}
-
-/// What the path radius saves: the same work planned and written with sharp inside corners. `None` where the path is sharp, or
-/// the sharp one cannot be planned.
-fn time_saved(settings: &Settings, part: &Region, plan: &Plan, program: &Program) -> Option<TimeSaved> {
-    let job = &settings.job;
-    if job.path_radius_mm() == 0.0 {
-        return None;
-    }
-    let sharp = Job { path_radius: PathRadius::Length(0.0), ..job.clone() };
-    let sharp = Settings { job: sharp, dialect: settings.dialect.clone(), ..*settings };
-    let (_, toolpath, _) = shape(&sharp, part).ok()?;
-    let text = gcode::write(&toolpath, &[], &settings.dialect, settings.options).ok()?;
-    let sharp = gcode::read_as(&text, &settings.dialect).ok()?;
-    let sharp = with_heights(sharp, &settings.dialect, job.safe_height, job.stock_top - job.depth);
-    let saved = TimeSaved::between(program, &sharp, &machine(job), job.stock_top);
-    Some(TimeSaved { same_outlines: toolpath.contour_count == plan.toolpath.contour_count, ..saved })
 }
 
 /// The settings that stand at the top of the program.

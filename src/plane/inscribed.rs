@@ -17,6 +17,8 @@ pub struct InscribedCircle {
     pub center: Point,
     /// Its radius.
     pub radius: f64,
+    /// No circle in the region has a larger radius than this: the one that was found, and what the search leaves open.
+    pub at_most: f64,
 }
 
 /// A square of the search for the inscribed circle, ordered by the largest circle that it could hold.
@@ -52,7 +54,7 @@ pub fn inscribed_circle(outline: &Region) -> InscribedCircle {
     let half = 0.5 * bounds.width().min(bounds.height());
     let mut best = (bounds.center(), signed(bounds.center()));
     if half <= 0.0 {
-        return InscribedCircle { center: best.0, radius: best.1.max(0.0) };
+        return InscribedCircle { center: best.0, radius: best.1.max(0.0), at_most: best.1.max(0.0) };
     }
     let mut cells = BinaryHeap::new();
     let add = |center: Point, half: f64, cells: &mut BinaryHeap<Cell>, best: &mut (Point, f64)| {
@@ -72,13 +74,17 @@ pub fn inscribed_circle(outline: &Region) -> InscribedCircle {
     }
     let accuracy = INSCRIBED_ACCURACY * half;
     for _ in 0..INSCRIBED_CELLS {
-        let Some(cell) = cells.pop().filter(|c| c.best_possible > best.1 + accuracy) else { break };
+        if cells.peek().is_none_or(|c| c.best_possible <= best.1 + accuracy) {
+            break;
+        }
+        let Some(cell) = cells.pop() else { break };
         let h = 0.5 * cell.half;
         for (sx, sy) in [(-h, -h), (h, -h), (-h, h), (h, h)] {
             add(cell.center + Vector::new(sx, sy), h, &mut cells, &mut best);
         }
     }
-    InscribedCircle { center: best.0, radius: best.1.max(0.0) }
+    let left_open = cells.peek().map_or(0.0, |cell| cell.best_possible);
+    InscribedCircle { center: best.0, radius: best.1.max(0.0), at_most: left_open.max(best.1).max(0.0) }
 }
 
 #[cfg(test)]
@@ -95,6 +101,7 @@ mod tests {
         let radius = 24.0 / (4.0 + 2.0 * 40f64.sqrt());
         assert!((found.radius - radius).abs() < 0.02 * radius, "{found:?}");
         assert!((found.center - p(22.0, 20.0 - radius)).norm() < 0.1, "{found:?}");
+        assert!(found.at_most >= radius && found.at_most < 1.02 * radius, "{found:?}");
         assert_eq!(inscribed_circle(&Region::default()).radius, 0.0);
     }
 }

@@ -16,6 +16,9 @@ impl Region {
         if self.is_empty() || other.is_empty() || !bounds.0.overlaps(&bounds.1) {
             return false;
         }
+        if self == other {
+            return true;
+        }
         let tolerance = ON_BOUNDARY * bounds.0.union(bounds.1).diagonal();
         let (simple, rich) = if self.vertex_count() <= other.vertex_count() { (self, other) } else { (other, self) };
         let index = BoundaryIndex::new(rich);

@@ -88,18 +88,18 @@ impl Region {
         self.rings.iter().map(|r| r.winding_number(p)).sum::<i32>() > 0
     }
 
-    /// Every connected piece with its holes. Quadratic in the number of rings.
+    /// Every connected piece with its holes. Boxes are compared for every pair of a piece and a hole, no more.
     pub fn components(&self) -> Vec<Region> {
         let (outer, holes): (Vec<&Ring>, Vec<&Ring>) = self.rings.iter().partition(|r| r.area() > 0.0);
-        let mut pieces: Vec<Region> = outer.into_iter().map(|ring| Region::new(vec![ring.clone()])).collect();
+        let around: Vec<(Bounds, f64)> = outer.iter().map(|ring| (ring.bounds(), ring.area())).collect();
+        let mut pieces: Vec<Region> = outer.iter().map(|&ring| Region::new(vec![ring.clone()])).collect();
         for hole in holes {
-            let is_around = |piece: &&mut Region| {
-                hole.vertices.first().is_some_and(|v| piece.rings[0].winding_number(v.point) != 0)
-            };
+            let Some(place) = hole.vertices.first().map(|v| v.point) else { continue };
+            let is_around = |&k: &usize| around[k].0.contains(place) && outer[k].winding_number(place) != 0;
             // The smallest of those around it.
-            let around = pieces.iter_mut().filter(|p| is_around(p));
-            if let Some(piece) = around.min_by(|a, b| a.rings[0].area().total_cmp(&b.rings[0].area())) {
-                piece.rings.push(hole.clone());
+            let smallest = (0..outer.len()).filter(is_around).min_by(|&a, &b| around[a].1.total_cmp(&around[b].1));
+            if let Some(k) = smallest {
+                pieces[k].rings.push(hole.clone());
             }
         }
         pieces

@@ -6,7 +6,10 @@
 //! joined to itself by an arc about the centre of the resting disk, so that it turns no tighter than elsewhere.
 
 use super::OffsetError;
-use crate::plane::{Arc, BoundaryIndex, Joint, Link, Point, Region, Ring, Segment, Turn, Vector, Vertex, right_normal};
+use crate::plane::{
+    Arc, BoundaryIndex, Bounds, ChainTree, Joint, Link, Point, Region, Ring, Segment, Turn, Vector, Vertex,
+    right_normal,
+};
 
 /// Angle in radians within which a crossing counts as the end of an arc. Rounding of the resting disks is far below.
 const END_ANGLE: f64 = 1e-7;
@@ -131,14 +134,18 @@ fn crossings(rings: &[Ring], distance: f64) -> Vec<Crossing> {
             }
         }
     }
-    about.sort_by(|a, b| a.arc.center.x.total_cmp(&b.arc.center.x));
+    // A place that counts as the end of an arc may lie beside it.
+    let beside = 2.0 * END_ANGLE * distance;
+    let boxes: Vec<Bounds> = about.iter().map(|a| a.segment.bounds().inflated(beside)).collect();
+    let tree = ChainTree::new(&boxes);
     // Seen from its corner, a place on an arc lies within half its sweep of its middle.
     let may_hold =
         |a: &About, p: Point| (p - a.arc.center).dot(&a.middle) >= distance * ((0.5 * a.sweep).cos() - END_ANGLE);
     let mut found = Vec::new();
     for (k, a) in about.iter().enumerate() {
-        let near = about[k + 1..].iter().take_while(|b| b.arc.center.x - a.arc.center.x < 2.0 * distance);
-        for b in near {
+        let mut near = Vec::new();
+        tree.visit_near_box(&boxes[k], || 0.0, |n| near.extend((n > k && boxes[n].overlaps(&boxes[k])).then_some(n)));
+        for b in near.into_iter().map(|n| &about[n]) {
             let apart = b.arc.center - a.arc.center;
             let length = apart.norm();
             if length >= 2.0 * distance || length == 0.0 {

@@ -12,7 +12,7 @@ use crate::cam::strands::Strands;
 use crate::cam::tabs::{Ground, TabLine};
 use crate::cam::walk::Walk;
 use crate::cam::{Contour, Entry, Remainder, Side, TabPlaces, Tabs};
-use crate::plane::{Link, Point, Region, Segment};
+use crate::plane::{Joint, Link, Point, Region, Ring, Segment, Vertex, inscribed_circle};
 
 pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corners) -> Result<Planned, OperationError> {
     if geometry.area.is_empty() {
@@ -152,9 +152,17 @@ impl<'a> Cuts<'a> {
         let mut strands = Strands::default();
         routes.iter().enumerate().for_each(|(k, route)| strands.add(k, &route.path));
         let ground = self.ground(&strands);
+        let by_place = matches!(asked.places, TabPlaces::At(_));
+        let nothing_loose: Vec<bool> =
+            routes.iter().map(|route| !by_place && clears_its_inside(&route.path, self.work.tool.radius())).collect();
+        let cleared = nothing_loose.iter().filter(|is| **is).count();
+        self.notices.extend((cleared > 0).then_some(Notice::NothingToHold(cleared)));
         let (each, astray) = shared_out(asked, &routes, ASTRAY * self.work.tool.diameter);
         self.notices.extend(astray.into_iter().map(|p| Notice::TabsDropped(p, 1)));
-        for (k, route) in routes.iter_mut().enumerate().filter(|(_, route)| !route.path.is_empty()) {
+        for (k, route) in routes.iter_mut().enumerate() {
+            if route.path.is_empty() || nothing_loose[k] {
+                continue;
+            }
             let walk = Walk::new(route.path.clone());
             let placed = TabLine::place(&each[k], &walk, k, &ground);
             let missing = placed.asked - placed.line.count();
@@ -271,6 +279,19 @@ impl<'a> Cuts<'a> {
             self.count += 1;
         }
     }
+}
+
+/// Whether a tool along a closed path takes all that is inside of it.
+fn clears_its_inside(path: &[Segment], radius: f64) -> bool {
+    let vertex = |s: &Segment| Vertex { point: s.start, link: s.link, joint: Joint::Corner, id: None };
+    let ring = Ring { vertices: path.iter().map(vertex).collect() };
+    let length: f64 = path.iter().map(Segment::length).sum();
+    // What is nearer to a closed path than the radius has at most this area on one side of it.
+    if path.is_empty() || ring.area().abs() >= length * radius {
+        return false;
+    }
+    let inside = if ring.area() < 0.0 { ring.reversed() } else { ring };
+    inscribed_circle(&Region::new(vec![inside])).at_most < radius
 }
 
 /// So many places along a path are looked at for one between tabs where it can be entered.

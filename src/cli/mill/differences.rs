@@ -170,6 +170,15 @@ impl Cut {
                         "a wider tool".to_owned(),
                     );
                 }
+                Notice::NothingToHold(count) => {
+                    return self.row(
+                        "tabs",
+                        None,
+                        format!("none on {count} outlines"),
+                        "nothing comes loose there".to_owned(),
+                        String::new(),
+                    );
+                }
                 Notice::LeadSkipped(p) => (
                     p,
                     "lead",

@@ -5,7 +5,7 @@ use anyhow::Result;
 use super::select::select;
 use crate::cam::{self, Geometry, Hole, Operation, OperationKind, Origin, SelectFile, Setup, Side};
 use crate::io::svg::Shapes;
-use crate::plane::{Region, Vector};
+use crate::plane::{Bounds, Region, Vector};
 
 /// What brings the origin to where the job wants it, in millimetres.
 pub(super) fn shift(zero: Origin, shapes: &Shapes, mm_per_unit: f64) -> Vector {
@@ -51,8 +51,12 @@ pub(super) fn geometry(
         _ => Vec::new(),
     };
     // What has something in common with the shapes is the same part, or worked on inside.
-    let others = parts.iter().filter(|part| !area.overlaps(part)).flat_map(|part| part.rings.iter().cloned());
-    let others = Region::new(others.collect());
+    let pieces: Vec<(Bounds, Region)> = area.components().into_iter().map(|piece| (piece.bounds(), piece)).collect();
+    let is_other = |part: &&Region| {
+        let bounds = part.bounds();
+        !pieces.iter().any(|(around, piece)| around.overlaps(&bounds) && piece.overlaps(part))
+    };
+    let others = Region::new(parts.iter().filter(is_other).flat_map(|part| part.rings.iter().cloned()).collect());
     Ok(Geometry { area, lines, holes: holes.to_vec(), others })
 }
 

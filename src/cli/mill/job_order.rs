@@ -60,9 +60,13 @@ fn late_work<'a>(
     on_tabs: bool,
 ) -> impl Iterator<Item = (&'a Operation, &'a Operation)> {
     steps.iter().enumerate().filter_map(move |(k, first)| {
+        let concerned: Vec<&Step> =
+            steps[k + 1..].iter().filter(|later| !is_done_to_the_hole(first.operation, later.operation)).collect();
+        if concerned.is_empty() {
+            return None;
+        }
         let loose: Vec<Region> =
             cut_out(setup, first).into_iter().filter(|c| hangs(setup, first, c) == on_tabs).collect();
-        let concerned = steps[k + 1..].iter().filter(|later| !is_done_to_the_hole(first.operation, later.operation));
         let later = concerned.into_iter().find(|later| loose.iter().any(|part| works_on(later.geometry, part)))?;
         Some((first.operation, later.operation))
     })
@@ -103,7 +107,8 @@ fn cut_out(setup: &Setup, step: &Step) -> Vec<Region> {
 fn hangs(setup: &Setup, step: &Step, part: &Region) -> bool {
     // On the path, half a tool beside the outline; with rounded corners a little farther.
     let reach = setup.tool_of(step.operation).diameter + step.operation.cutting.allowance;
-    let stands_at = |tab: &TabPlace| part.segments().any(|s| s.is_nearer(tab.at, reach));
+    let around = part.bounds().inflated(reach);
+    let stands_at = |tab: &TabPlace| around.contains(tab.at) && part.segments().any(|s| s.is_nearer(tab.at, reach));
     step.planned.tabs.iter().any(stands_at)
 }
 

@@ -6,7 +6,7 @@ use anyhow::{Context as _, Result, anyhow, bail};
 
 use super::drawn::{chosen, drawn_outlines, geometry, parts, shift};
 use super::setup_report::SetupReport;
-use super::setup_saved::time_saved;
+use super::setup_saved::sharp_programs;
 use super::{
     FormatArg, LAP_DEPTH, LASER_POWER, MillArgs, Verdict, job_order, keep_page, laser_power, setup_page, stock_edges,
     target, travel,
@@ -135,14 +135,18 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     };
     let steps = steps(&setup, &planned);
     let written = write(args, &setup, &dialect, options, &steps, &target)?;
-    let done = hold_against(&setup, &dialect, planned, &written)?;
+    let (done, sharp) = cam::both(
+        || hold_against(&setup, &dialect, planned.clone(), &written),
+        || sharp_programs(&setup, &dialect, options, &planned, &worked_on),
+    );
+    let done = done?;
     let tabs_lost = job_order::tabs_lost(&setup, &done);
     let mut unsafe_travel = travel::beyond_travel(&setup, &written);
     unsafe_travel.extend(travel::collisions(&setup, &done, &written));
     let mut remarks = stock_edges::beyond(&setup, setup.stock.zero, &done);
     remarks.extend(travel::unknown_ways(&setup, &written));
     remarks.extend(loosened);
-    let saved = time_saved(&setup, &dialect, options, &done, &written, &drawn);
+    let saved = sharp.map(|sharp| sharp.saves(&setup, &written));
 
     // A program may be run by one who has not read the report.
     let is_withheld = done.iter().any(|d| gouges(d.check.gouge.as_ref())) || !unsafe_travel.is_empty();

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use serde_json::json;
 
-use super::setup::{Done, Written, at};
+use super::notice_words::notice_words;
+use super::setup::{Done, Written};
 use super::travel;
-use crate::cam::{Notice, OperationKind, Setup, Side, TimeSaved, Uncut, estimate, uncut};
+use crate::cam::{OperationKind, Setup, Side, TimeSaved, Uncut, estimate, uncut};
 use crate::cli::report::{GOUGE_LIMIT, Verdict, describe, gouges, older_one};
 use crate::cli::time_words::{minutes, sharp, time_saved};
 use crate::gcode::{Dialect, MachineKind, Severity};
@@ -272,54 +273,9 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
             place.y_mm
         ));
     }
-    for notice in &planned.notices {
-        match *notice {
-            Notice::LeadSkipped(p) => notes.push(format!("no room for a lead at {}", at(p))),
-            Notice::LeadShortened(p, radius) => {
-                notes.push(format!("the lead at {} has room for a radius of {radius:.3} mm only", at(p)))
-            }
-            Notice::OpenLine(p) => failures.push(format!(
-                "the line that begins at {} is open, and nothing is cut along it: close it in the drawing, or engrave it",
-                at(p)
-            )),
-            Notice::TabMoved(p, to) => {
-                notes.push(format!("the tab at {} had to be moved to {}", at(p), at(to)));
-            }
-            Notice::Covered(p) => failures.push(format!(
-                "the shape around {} lies wholly on another one and changes nothing: draw it as a hole of that shape (one path, \
-                 fill-rule=\"evenodd\"), give it an operation of its own, or leave it out of select",
-                at(p)
-            )),
-            Notice::NotRound(p) => failures.push(format!(
-                "the shape around {} is no circle and is not drilled: leave it out of select, or cut it with a pocket",
-                at(p)
-            )),
-            Notice::HoleNarrow(p, diameter) => failures.push(format!(
-                "the hole of {diameter:.3} mm at {} comes out as wide as the drill: take a drill of its size, or bore it with an end mill",
-                at(p)
-            )),
-            Notice::HelixSkipped(p) => {
-                notes.push(format!("no room for a helix at {}: the tool ramps along the path", at(p)))
-            }
-            Notice::NoHole(p) => {
-                notes.push(format!("no drilled hole near {} takes the tool: it ramps along the path", at(p)))
-            }
-            Notice::CornerSkipped(p) => {
-                notes.push(format!("the tool does not come near the corner at {}: it stays round", at(p)))
-            }
-            Notice::BottomCleared(step) => notes.push(format!("where the letters are wider than the tool reaches, the tip clears the bottom in paths {step:.2} mm apart")),
-            Notice::TabsDropped(p, count) => failures.push(format!(
-                "{} no place on an outline near {}: ask for fewer, narrower or others",
-                if count == 1 { "a tab finds".to_owned() } else { format!("{count} tabs find") },
-                at(p)
-            )),
-            Notice::TabsOnArcs(p, count) => notes.push(format!(
-                "{} on tight arcs of the outline at {}",
-                if count == 1 { "a tab stands".to_owned() } else { format!("{count} tabs stand") },
-                at(p)
-            )),
-        }
-    }
+    let [wrong, told] = notice_words(&planned.notices);
+    failures.extend(wrong);
+    notes.extend(told);
     notes.extend(loose_part(done, setup));
     Words { failures, notes }
 }
