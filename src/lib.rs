@@ -40,6 +40,8 @@
 //! - [`gcode`]: the text of programs: dialects, writer, reader, lint;
 //! - [`preview`]: pictures of drawings, of their states in a flow, of surfaces, and of programs;
 //! - [`cli`]: the command: alone knows clap and terminals.
+//!
+//! Below them all, `threads`: work on several threads, the same bytes as on one.
 
 pub mod cam;
 pub mod check;
@@ -53,4 +55,5 @@ pub mod plane;
 pub mod preview;
 pub mod reference;
 pub mod rolling;
+mod threads;
 pub mod units;

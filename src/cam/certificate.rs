@@ -1,6 +1,5 @@
 //! What a program does to a part: computed from the program as it was read back, not from what was meant.
 
-use super::both::both;
 use super::gouge::{Gouge, deepest_cut};
 use super::motion::{MotionKind, Program};
 use super::path_radius::{TightestTurns, tightest_turns};
@@ -8,6 +7,7 @@ use super::removal::{Uncut, uncut};
 use super::solid::Remainder;
 use super::time::{Machine, ProgramTime, estimate};
 use crate::plane::{Bounds, Region};
+use crate::threads::both;
 
 /// What a program is held against.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,16 +149,14 @@ pub fn certify(program: &Program, part: &Region, kept: &Region, options: &Certif
     let statistics = statistics(program, stock_top);
     let floor = floor.unwrap_or(stock_top - statistics.depth_mm);
     let deepest = |solid: &Region| deepest_cut(program, solid, remainder, tool_radius, stock_top);
-    let (uncut, [gouge, overcut]) =
-        both(|| uncut(program, part, remainder, tool_radius, floor), || [part, kept].map(deepest));
-    Certificate {
-        gouge,
-        overcut,
-        uncut,
-        path_radius: tightest_turns(program, kept, remainder, stock_top),
-        statistics,
-        time: estimate(program, &machine),
-    }
+    let (uncut, ([gouge, overcut], path_radius, time)) = both(
+        || uncut(program, part, remainder, tool_radius, floor),
+        || {
+            let turns = tightest_turns(program, kept, remainder, stock_top);
+            ([part, kept].map(deepest), turns, estimate(program, &machine))
+        },
+    );
+    Certificate { gouge, overcut, uncut, path_radius, statistics, time }
 }
 
 #[cfg(test)]

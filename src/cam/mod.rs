@@ -11,7 +11,6 @@
 //! Refused: regions with concave features tighter than the tool, jobs with values that make no sense.
 
 mod against;
-mod both;
 mod certificate;
 mod chamfer;
 mod cone_gouge;
@@ -64,7 +63,6 @@ mod v_carve;
 mod walk;
 
 pub use against::{Against, AgainstOptions, against};
-pub(crate) use both::both;
 pub use certificate::{Certificate, CertifyOptions, CutBox, ProgramStatistics, certify, statistics};
 pub use chamfer::{Chamfer, ChamferError, chamfer_depth};
 pub use cone_gouge::deepest_carving;

@@ -4,7 +4,6 @@
 //! motions that the text asks for.
 
 use super::Side;
-use super::both::both;
 use super::certificate::{ProgramStatistics, statistics};
 use super::cone_gouge::deepest_carving;
 use super::feeds::Feeds;
@@ -18,6 +17,7 @@ use super::setup::{Operation, OperationKind, Workpiece};
 use super::solid::Remainder;
 use super::time::{Machine, motion_seconds};
 use super::tool::ToolShape;
+use crate::threads::both;
 
 /// How far a tool may pass below the top of a tab, in millimetres: rounding of the text.
 const TAB_ROUNDING: f64 = 0.002;

@@ -127,6 +127,9 @@ impl TightestTurns {
     fn add_radius(&mut self, radius: f64, inward: crate::plane::Vector, place: crate::plane::Point, solid: &Solid) {
         let least = |old: Option<f64>| Some(old.map_or(radius, |r| r.min(radius)));
         self.smallest_mm = least(self.smallest_mm);
+        if self.smallest_concave_mm.is_some_and(|smallest| smallest <= radius) {
+            return;
+        }
         let is_concave = solid.boundary.nearest(place).is_some_and(|(_, n)| (n.point - place).dot(&inward) < 0.0);
         if is_concave {
             self.smallest_concave_mm = least(self.smallest_concave_mm);

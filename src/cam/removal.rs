@@ -1,6 +1,7 @@
 //! What a program leaves standing next to the part: where the tool did not reach.
 //!
-//! Stages: the motions that reach the floor are joined to paths and stroked with the tool; stock less swept less part
+//! Stages: the motions that reach the floor are joined to paths and stroked with the tool; strokes and outlines fall into groups
+//! that lie apart; of each, stock less swept less part
 //! is what stands beside the part; pieces of it that hang on the part are its places. A thin skin around the part is
 //! taken away first, because the rounding of a program leaves hairs between the places, and is given back by the
 //! length of contact.
@@ -14,7 +15,8 @@ use i_overlay::float::single::SingleFloatOverlay;
 use super::motion::{Motion, MotionKind, Program};
 use super::solid::{Remainder, Solid};
 use super::stroke::{Polygon, Stroke, joined_lines};
-use crate::plane::{Bounds, Point, Region, Ring, Segment, inscribed_circle};
+use crate::plane::{Bounds, Point, Region, Ring, Segment, groups_apart, inscribed_circle};
+use crate::threads;
 
 /// Thickness of the skin in millimetres: a few times what three decimals of a millimetre round away.
 const SKIN: f64 = 0.004;
@@ -81,9 +83,7 @@ pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor:
     if part.is_empty() || paths.is_empty() {
         return Uncut::default();
     }
-    let elements = paths.iter().flat_map(|(paths, _)| paths.iter().flatten());
-    let reach = elements.fold(part.bounds(), |b, s| b.union(s.bounds()));
-    let frame = reach.inflated(4.0 * paths.iter().map(|(_, radius)| *radius).fold(0.0, f64::max));
+    let largest_radius = paths.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
     let mut cut = Vec::new();
     for (paths, radius) in &paths {
         let stroke = Stroke { radius: *radius, tolerance: FLATTENING };
@@ -97,9 +97,6 @@ pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor:
     }
     // The part with its skin.
     let skin = Stroke { radius: SKIN, tolerance: FLATTENING };
-    if remainder == Remainder::Outside {
-        cut.push(rectangle(frame));
-    }
     for ring in &part.rings {
         let solid_on_the_left = match remainder {
             Remainder::Inside => ring.segments().collect(),
@@ -108,25 +105,60 @@ pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor:
         let has_length: Vec<Segment> = solid_on_the_left.into_iter().filter(|s| s.length() > 0.0).collect();
         cut.push(skin.closed_side(&has_length));
     }
-    let left = vec![rectangle(frame)].overlay_as::<i64>(&cut, OverlayRule::Difference, FillRule::NonZero);
     let solid = Solid::new(part, remainder);
+    // What lies around all groups hangs together: nothing that stands alone is shared by two of them.
+    let around: Vec<Bounds> =
+        cut.iter().map(|ring| Bounds::of_points(ring.iter().map(|&[x, y]| Point::new(x, y)))).collect();
+    let groups: Vec<Group> = groups_apart(&around)
+        .into_iter()
+        .map(|members| {
+            let frame = members.iter().fold(Bounds::EMPTY, |b, &k| b.union(around[k])).inflated(largest_radius);
+            let around_pocket = (remainder == Remainder::Outside).then(|| rectangle(frame));
+            Group {
+                frame,
+                cut: members.into_iter().map(|k| std::mem::take(&mut cut[k])).chain(around_pocket).collect(),
+            }
+        })
+        .collect();
+    let found = threads::map_long(&groups, threads::available(), |group| group.uncut(&solid));
     let mut result = Uncut { is_cut_free: true, ..Uncut::default() };
-    for shape in left {
-        let vertices = || shape.iter().flatten().map(|&[x, y]| Point::new(x, y));
-        if !vertices().any(|p| solid.boundary.is_nearer(p, 1.5 * SKIN)) {
-            continue;
-        }
-        if remainder == Remainder::Inside && vertices().any(|p| is_on_frame(p, &frame)) {
-            result.is_cut_free = false;
-            continue;
-        }
-        if let Some(place) = place(&shape, &solid) {
-            result.area_mm2 += place.area_mm2;
-            result.places.push(place);
-        }
+    for group in found {
+        result.area_mm2 += group.area_mm2;
+        result.places.extend(group.places);
+        result.is_cut_free &= group.is_cut_free;
     }
     result.places.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     result
+}
+
+/// Rings of what is swept and of the part with its skin, away from all others.
+struct Group {
+    frame: Bounds,
+    cut: Vec<Polygon>,
+}
+
+impl Group {
+    /// What stands within the frame.
+    fn uncut(&self, solid: &Solid) -> Uncut {
+        let stock = vec![rectangle(self.frame)];
+        let left = stock.overlay_as::<i64>(&self.cut, OverlayRule::Difference, FillRule::NonZero);
+        let mut result = Uncut { is_cut_free: true, ..Uncut::default() };
+        for shape in left {
+            let vertices = || shape.iter().flatten().map(|&[x, y]| Point::new(x, y));
+            if !vertices().any(|p| solid.boundary.is_nearer(p, 1.5 * SKIN)) {
+                continue;
+            }
+            if solid.remainder == Remainder::Inside && vertices().any(|p| is_on_frame(p, &self.frame)) {
+                result.is_cut_free = false;
+                continue;
+            }
+            if let Some(place) = place(&shape, solid) {
+                result.area_mm2 += place.area_mm2;
+                result.places.push(place);
+            }
+        }
+        result
+    }
 }
 
 /// The paths of all motions at the floor, joined where they follow each other; each trace once. A plunge is a line

@@ -16,7 +16,7 @@ pub enum Remainder {
 /// A region or what is around it.
 pub(super) struct Solid {
     pub(super) boundary: BoundaryIndex,
-    remainder: Remainder,
+    pub(super) remainder: Remainder,
 }
 
 /// Most evaluations in the search along one element.

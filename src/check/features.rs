@@ -178,17 +178,6 @@ struct Components {
 
 impl Components {
     fn new(region: &Region) -> Components {
-        let areas: Vec<f64> = region.rings.iter().map(|r| r.area()).collect();
-        let owner = |k: usize| -> usize {
-            if areas[k] > 0.0 {
-                return k;
-            }
-            let Some(v) = region.rings[k].vertices.first() else { return k };
-            (0..areas.len())
-                .filter(|&j| areas[j] > -areas[k] && region.rings[j].winding_number(v.point) > 0)
-                .min_by(|&i, &j| areas[i].total_cmp(&areas[j]))
-                .unwrap_or(k)
-        };
-        Components { of_ring: (0..areas.len()).map(owner).collect(), is_hole: areas.iter().map(|a| *a < 0.0).collect() }
+        Components { of_ring: region.owners(), is_hole: region.rings.iter().map(|r| r.area() < 0.0).collect() }
     }
 }

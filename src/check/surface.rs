@@ -11,7 +11,8 @@ use super::surface_samples::{SurfaceSample, samples};
 use super::surface_shape::{angles, is_used, minimum_curvatures, topology, winding_number};
 use super::surface_whole::Pair;
 use crate::mesh::{Point, TriangleMesh, self_intersections};
-use crate::reference::{Operation, Solid, threads};
+use crate::reference::{Operation, Solid};
+use crate::threads;
 
 /// A vertex of the output has moved if it is farther than this from the input, in diagonals of the input: above all rounding,
 /// below all that is meant.
@@ -53,14 +54,14 @@ pub fn surface(
     let [input, output] = turned.as_ref().map_or([input, output], |[a, b]| [a, b]);
     let (solid, result) = (Solid::new(input), Solid::new(output));
     let limit = MOVED * input.diagonal();
-    let has_moved = threads::map(&output.points, |p| !solid.hierarchy().is_nearer(*p, limit));
+    let has_moved = threads::map(&output.points, threads::available(), |p| !solid.hierarchy().is_nearer(*p, limit));
     let moved_face = |f: usize| output.faces[f].iter().any(|&v| has_moved[v as usize]);
     let normals = output.vertex_normals();
     let moved = samples(output, &normals, moved_face);
     let kept = samples(output, &normals, |f| !moved_face(f));
     let centres = Centres::new(input, &solid, radius);
     let covered = samples(input, &input.vertex_normals(), |_| true);
-    let outside = threads::map(&covered, |s| result.distance(s.point));
+    let outside = threads::map(&covered, threads::available(), |s| result.distance(s.point));
     let pair = Pair { input, output, solid: &solid, limit, radius };
     let output_pairs = self_intersections(output);
     Ok(SurfaceReport {
@@ -129,8 +130,9 @@ fn contact_error(
     h: f64,
     radius: f64,
 ) -> ContactError {
-    let errors: Vec<Contact> = threads::map(moved, |s| centres.contact(s.point, &s.outward));
-    let still: Vec<Contact> = threads::map(kept, |s| centres.contact_on_surface(s.point, &s.outward));
+    let errors: Vec<Contact> = threads::map(moved, threads::available(), |s| centres.contact(s.point, &s.outward));
+    let still: Vec<Contact> =
+        threads::map(kept, threads::available(), |s| centres.contact_on_surface(s.point, &s.outward));
     let pairs = || moved.iter().zip(&errors);
     let area: f64 = moved.iter().map(|s| s.area).sum();
     let rest: f64 = kept.iter().map(|s| s.area).sum();
@@ -173,7 +175,7 @@ fn containment(
     h: f64,
 ) -> SurfaceContainment {
     let points: Vec<Point> = moved.iter().map(|s| s.point).collect();
-    let inside = threads::map(&points, |p| -solid.distance(*p));
+    let inside = threads::map(&points, threads::available(), |p| -solid.distance(*p));
     let [below, beyond] = [hollow(input), hollow(output)];
     let sunken = deepest(&inside, &points, |p| winding_number(input, p) + below > 0.5);
     let points: Vec<Point> = covered.iter().map(|s| s.point).collect();
@@ -224,8 +226,9 @@ fn kept_part(input: &TriangleMesh, output: &TriangleMesh, centres: &Centres, rad
     let used: Vec<u32> = is_used(input).into_iter().zip(0u32..).filter(|(used, _)| *used).map(|(_, v)| v).collect();
     let is_found = |v: &u32| vertices.contains(&before[*v as usize]);
     let normals = input.vertex_normals();
-    let depths =
-        threads::map(&used, |&v| centres.contact_on_surface(input.points[v as usize], &[normals[v as usize]]).depth);
+    let depths = threads::map(&used, threads::available(), |&v| {
+        centres.contact_on_surface(input.points[v as usize], &[normals[v as usize]]).depth
+    });
     let still: Vec<u32> = used.iter().zip(&depths).filter(|(_, d)| **d <= STILL * radius).map(|(v, _)| *v).collect();
     let vertices_found = used.iter().filter(|v| is_found(v)).count();
     let still_vertices_found = still.iter().filter(|v| is_found(v)).count();

@@ -7,7 +7,8 @@ use super::surface_report::{SurfacePlace, SurfaceWhole};
 use super::surface_samples::SurfaceSample;
 use super::surface_shape::border_edges;
 use crate::mesh::{Hierarchy, Point, TriangleMesh, Vector, nearest_on_triangle};
-use crate::reference::{Solid, threads};
+use crate::reference::Solid;
+use crate::threads;
 
 /// A place of the input is missing in the output only beyond this, in radii: less is what is left of facets.
 const LEFT: f64 = 1e-3;
@@ -60,7 +61,7 @@ impl Pair<'_> {
     /// How far the output is at most from a place of the input that a ball touches: a closing has it on its surface.
     fn missing(&self, samples: &[SurfaceSample], distances: &[f64], is_free: impl Fn(Point) -> bool + Sync) -> Largest {
         let far: Vec<usize> = (0..samples.len()).filter(|&k| distances[k].abs() > LEFT * self.radius).collect();
-        let is_touched = threads::map(&far, |&k| {
+        let is_touched = threads::map(&far, threads::available(), |&k| {
             let SurfaceSample { point, outward, .. } = &samples[k];
             outward.iter().any(|n| is_free(point + n * self.radius))
         });
@@ -81,7 +82,7 @@ impl Pair<'_> {
     /// The faces of the output that lie on the input and face the other way: how many, their area, and the middle of the first.
     fn turned(&self) -> (usize, f64, Option<SurfacePlace>) {
         let faces: Vec<usize> = (0..self.output.faces.len()).collect();
-        let is_turned = threads::map(&faces, |&f| self.is_turned(f));
+        let is_turned = threads::map(&faces, threads::available(), |&f| self.is_turned(f));
         let turned = || faces.iter().zip(&is_turned).filter(|(_, turned)| **turned).map(|(&f, _)| f);
         let area = turned().map(|f| 0.5 * self.output.area_vector(f).norm()).sum();
         (turned().count(), area, turned().next().map(|f| middle(self.output.triangle(f)).into()))

@@ -8,6 +8,7 @@ use clap::Args;
 use super::ExitStatus;
 use super::check::FormatArg;
 use super::text::StyleArgs;
+use crate::threads;
 use crate::units::FontLength;
 
 /// The arguments.
@@ -136,11 +137,8 @@ mod with_text {
         if !(tolerance > 0.0 && tolerance < em) {
             bail!("--tolerance is {}: it must be above zero and below the em", args.tolerance);
         }
-        let options = RestyleOptions {
-            sampling: Sampling::new(em, radius.get()),
-            tolerance,
-            threads: std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-        };
+        let options =
+            RestyleOptions { sampling: Sampling::new(em, radius.get()), tolerance, threads: threads::available() };
         let family = match &args.family {
             Some(family) => family.clone(),
             None => default_family(&face.names().with_context(name)?.family, args),

@@ -35,6 +35,7 @@ use crate::plane::Region;
 use crate::preview::{self, DEFAULT_SIZE, Scene};
 use crate::reference::Operation;
 use crate::rolling::{self, Topology};
+use crate::threads;
 use crate::units::{Length, Radius};
 pub(super) use args::MillArgs;
 use notice_words::MOST_ALIKE;
@@ -110,7 +111,7 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
     let settings = read_settings(args, &drawing, &target)?;
     let job = &settings.job;
     let part = drawing.region.scaled(mm_per_unit);
-    let ((covered, plan), sharp) = cam::both(
+    let ((covered, plan), sharp) = threads::both(
         || (args.reading.covered(&args.input), make_plan(&settings, &part)),
         || saved::sharp_path(&settings, &part),
     );
@@ -126,21 +127,21 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
         output::say(&format!("clopen: {name}: the same of {} more shapes\n", covered.len() - told));
     }
     let mut plan = plan.with_context(|| name.to_string())?;
-    let (checked, lost) = cam::both(|| check(args, &settings, &plan), || lost(job, &plan));
+    let (checked, lost) = threads::both(|| check(args, &settings, &plan), || lost(job, &plan));
     let checked = checked?;
     plan.lost = lost?;
-    let saved = sharp.map(|sharp| sharp.saves(job, &plan, &checked.program));
+    let is_drawn = picture.is_some() || (args.html.is_some() && !args.no_preview);
+    let (drawn, saved) = threads::both(
+        || is_drawn.then(|| draw(job, &plan, &checked)).transpose(),
+        || sharp.map(|sharp| sharp.saves(job, &plan, &checked.program)),
+    );
+    let drawn = drawn?;
 
     let gouges = gouges(checked.certificate.gouge.as_ref());
     let mut contents = Vec::new();
     if !gouges {
         contents.push((target.clone(), checked.text.clone().into_bytes()));
     }
-    let drawn = if picture.is_some() || (args.html.is_some() && !args.no_preview) {
-        Some(draw(job, &plan, &checked)?)
-    } else {
-        None
-    };
     contents.extend(picture.zip(drawn.clone()));
     let mut written: Vec<PathBuf> = contents.iter().map(|(path, _)| path.clone()).collect();
     written.extend(args.html.clone());
@@ -319,8 +320,11 @@ fn check(args: &MillArgs, settings: &Settings, plan: &Plan) -> Result<Checked> {
     let Settings { job, dialect, options, .. } = settings;
     let header = header(args, settings, plan);
     let text = gcode::write(&plan.toolpath, &header, dialect, *options)?;
-    let findings = gcode::lint(&text, &LintOptions { dialect, stock_top: job.stock_top });
-    let program = gcode::read_as(&text, dialect).context("the program cannot be read back; please report this")?;
+    let (findings, program) = threads::both(
+        || gcode::lint(&text, &LintOptions { dialect, stock_top: job.stock_top }),
+        || gcode::read_as(&text, dialect),
+    );
+    let program = program.context("the program cannot be read back; please report this")?;
     let program = with_heights(program, dialect, job.safe_height, job.stock_top - job.depth);
     let machine = machine(job);
     let remainder = match job.side {

@@ -5,7 +5,8 @@
 //! with a corner or an edge in common, do not cross unless they do so elsewhere, or are folded onto each other. Corners at
 //! bit-identical places count as one.
 
-use super::{Hierarchy, Point, TriangleMesh, Vector, parallel};
+use super::{Hierarchy, Point, TriangleMesh, Vector};
+use crate::threads;
 
 /// Nearer to a plane than this, over the longest edge of both triangles, is in the plane; a thousand times what rounding does to
 /// well shaped ones, and what makes the line common to two planes known to seven digits.
@@ -60,7 +61,7 @@ pub(super) enum Meeting {
 /// All pairs that meet, or as many as were found first.
 pub(super) fn all(hierarchy: &Hierarchy, most: usize) -> Vec<(u32, u32, Meeting)> {
     // Each piece finds its first ones, whatever the others do.
-    let found = parallel::map(&hierarchy.pieces(), |&piece| {
+    let found = threads::map_long(&hierarchy.pieces(), threads::available(), |&piece| {
         let mut pairs = vec![];
         hierarchy.any_pair(piece, |[f, g], [one, other]| {
             if pairs.len() < most

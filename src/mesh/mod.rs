@@ -11,7 +11,6 @@ mod half_edge;
 mod hierarchy;
 mod intersect;
 mod offset;
-mod parallel;
 mod polygon_mesh;
 mod problem;
 mod repair;

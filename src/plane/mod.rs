@@ -4,6 +4,7 @@
 //! reads a drawing decides (see [`crate::units`]). Solid material lies on the left of every link, so outer rings run
 //! counterclockwise and holes clockwise, with the y axis pointing up.
 
+mod apart;
 mod biarc;
 mod bounds;
 mod chain_tree;
@@ -20,6 +21,7 @@ mod segment;
 mod segment_distance;
 mod stretch;
 
+pub use apart::groups_apart;
 pub use biarc::{Biarc, Place};
 pub use bounds::Bounds;
 pub use chain_tree::ChainTree;

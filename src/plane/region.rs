@@ -88,21 +88,38 @@ impl Region {
         self.rings.iter().map(|r| r.winding_number(p)).sum::<i32>() > 0
     }
 
-    /// Every connected piece with its holes. Boxes are compared for every pair of a piece and a hole, no more.
+    /// For each ring the index of the outer ring that it belongs to: its own for an outer ring, the smallest around it for a
+    /// hole, and its own again where there is none. Boxes are compared for every pair of a hole and an outer ring, no more.
+    pub fn owners(&self) -> Vec<usize> {
+        let areas: Vec<f64> = self.rings.iter().map(Ring::area).collect();
+        let outer: Vec<(usize, Bounds)> =
+            (0..areas.len()).filter(|&k| areas[k] > 0.0).map(|k| (k, self.rings[k].bounds())).collect();
+        let owner = |k: usize| {
+            let Some(place) = self.rings[k].vertices.first().map(|v| v.point).filter(|_| areas[k] <= 0.0) else {
+                return k;
+            };
+            let is_around = |(j, bounds): &&(usize, Bounds)| {
+                areas[*j] >= -areas[k] && bounds.contains(place) && self.rings[*j].winding_number(place) != 0
+            };
+            let smallest = outer.iter().filter(is_around).min_by(|a, b| areas[a.0].total_cmp(&areas[b.0]));
+            smallest.map_or(k, |(j, _)| *j)
+        };
+        (0..areas.len()).map(owner).collect()
+    }
+
+    /// Every connected piece with its holes.
     pub fn components(&self) -> Vec<Region> {
-        let (outer, holes): (Vec<&Ring>, Vec<&Ring>) = self.rings.iter().partition(|r| r.area() > 0.0);
-        let around: Vec<(Bounds, f64)> = outer.iter().map(|ring| (ring.bounds(), ring.area())).collect();
-        let mut pieces: Vec<Region> = outer.iter().map(|&ring| Region::new(vec![ring.clone()])).collect();
-        for hole in holes {
-            let Some(place) = hole.vertices.first().map(|v| v.point) else { continue };
-            let is_around = |&k: &usize| around[k].0.contains(place) && outer[k].winding_number(place) != 0;
-            // The smallest of those around it.
-            let smallest = (0..outer.len()).filter(is_around).min_by(|&a, &b| around[a].1.total_cmp(&around[b].1));
-            if let Some(k) = smallest {
-                pieces[k].rings.push(hole.clone());
+        let owners = self.owners();
+        let mut pieces: Vec<(usize, Region)> = Vec::new();
+        for (k, ring) in self.rings.iter().enumerate().filter(|(_, ring)| ring.area() > 0.0) {
+            pieces.push((k, Region::new(vec![ring.clone()])));
+        }
+        for (k, ring) in self.rings.iter().enumerate().filter(|(k, _)| owners[*k] != *k) {
+            if let Ok(piece) = pieces.binary_search_by_key(&owners[k], |(j, _)| *j) {
+                pieces[piece].1.rings.push(ring.clone());
             }
         }
-        pieces
+        pieces.into_iter().map(|(_, piece)| piece).collect()
     }
 
     /// Outer rings and holes, told apart by the sign of their area.

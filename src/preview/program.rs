@@ -1,11 +1,14 @@
 //! The picture of a program: what it cuts, how, and what it leaves.
 
+use std::collections::HashSet;
+
 use super::PreviewError;
 use super::outline::{short, split_moved};
 use super::palette;
 use super::sheet::{Entry, Sample, Sheet};
 use crate::cam::{Motion, MotionKind, Program, Tool, ToolShape, Uncut, statistics};
 use crate::plane::{Bounds, Point, Region, Segment};
+use crate::threads;
 
 /// What the picture of a program shows.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +64,12 @@ const SMALL_PLACE: f64 = 0.018;
 pub fn program(scene: &Scene, size: u32) -> Result<Vec<u8>, PreviewError> {
     let bounds = bounds(scene);
     let depth = statistics(scene.program, scene.stock_top).depth_mm;
-    let mut sheet = Sheet::new(&bounds, size, legend(scene, depth, f64::from(size) / 1000.0))?;
+    let ((on, off), moved) = threads::both(
+        || scene.part.map(|part| split_moved(part, scene.kept, SAME_BOUNDARY)).unwrap_or_default(),
+        || scene.kept.map(|kept| split_moved(kept, scene.part, SAME_BOUNDARY).1).unwrap_or_default(),
+    );
+    let entries = legend(scene, &bounds, depth, !moved.is_empty(), f64::from(size) / 1000.0);
+    let mut sheet = Sheet::new(&bounds, size, entries)?;
     let view = sheet.view;
     let unit = sheet.unit;
     let in_stock = || scene.program.motions.iter().filter(|m| m.is_in_stock(scene.stock_top));
@@ -70,13 +78,11 @@ pub fn program(scene: &Scene, size: u32) -> Result<Vec<u8>, PreviewError> {
         sheet.canvas.fill(view.region(part).as_ref(), palette::PART, None);
     }
     draw_swaths(scene, &mut sheet);
-    draw_uncut(scene, &mut sheet);
-    if let Some(part) = scene.part {
-        let (on, off) = split_moved(part, scene.kept, SAME_BOUNDARY);
-        let moved = scene.kept.map(|kept| split_moved(kept, scene.part, SAME_BOUNDARY).1);
+    draw_uncut(scene, &bounds, &mut sheet);
+    if scene.part.is_some() {
         sheet.canvas.stroke(&view.elements(off), palette::KEPT, 0.8 * unit, None);
         sheet.canvas.stroke(&view.elements(on), palette::KEPT, 1.5 * unit, None);
-        sheet.canvas.stroke(&view.elements(moved.unwrap_or_default()), palette::MOVED, 2.0 * unit, None);
+        sheet.canvas.stroke(&view.elements(moved), palette::MOVED, 2.0 * unit, None);
     }
     draw_path(scene, depth, &mut sheet);
     let rapids = scene.program.motions.iter().filter(|m| m.is_rapid()).flat_map(Motion::trace);
@@ -113,7 +119,7 @@ fn bounds(scene: &Scene) -> Bounds {
     if all.is_empty() { of_path(false) } else { all }
 }
 
-fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
+fn legend(scene: &Scene, bounds: &Bounds, depth: f64, is_moved: bool, unit: f64) -> Vec<Entry> {
     let mut entries = Vec::new();
     let mut add = |sample, text: String| entries.push(Entry { sample, text });
     if let Some(part) = scene.part {
@@ -121,13 +127,13 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
         add(Sample::Fill(palette::PART, None), format!("part {} x {} mm", short(b.width()), short(b.height())));
         add(Sample::Line(palette::KEPT, 1.5 * unit), "outline".to_owned());
     }
-    if scene.kept.is_some_and(|kept| !split_moved(kept, scene.part, SAME_BOUNDARY).1.is_empty()) {
+    if is_moved {
         add(Sample::Line(palette::MOVED, 2.0 * unit), "rounded by the tool".to_owned());
     }
     if let Some(uncut) = scene.uncut.filter(|u| !u.places.is_empty()) {
         let text = format!("uncut {} mm²", short(uncut.area_mm2));
         add(Sample::Fill(palette::UNCUT, Some(palette::UNCUT_LINE)), text);
-        if circled(uncut, &bounds(scene)).next().is_some() {
+        if circled(uncut, bounds).next().is_some() {
             add(Sample::Ring(palette::UNCUT_LINE), "small uncut place".to_owned());
         }
     }
@@ -148,7 +154,7 @@ fn legend(scene: &Scene, depth: f64, unit: f64) -> Vec<Entry> {
     if scene.program.motions.iter().any(|m| m.is_in_stock(scene.stock_top)) {
         add(Sample::Dot(palette::START), "entry".to_owned());
     }
-    if bounds(scene).contains(Point::origin()) {
+    if bounds.contains(Point::origin()) {
         add(Sample::Target(palette::ORIGIN), "x 0, y 0".to_owned());
     }
     entries
@@ -158,7 +164,7 @@ fn thousandths(length: f64) -> String {
     format!("{length:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// What the tools sweep in the stock: one stroke for all motions of the same width.
+/// What the tools sweep in the stock: one stroke for all motions of the same width, passes over each other once.
 fn draw_swaths(scene: &Scene, sheet: &mut Sheet) {
     let view = sheet.view;
     let mut by_width: Vec<(f64, Vec<&Motion>)> = Vec::new();
@@ -170,7 +176,9 @@ fn draw_swaths(scene: &Scene, sheet: &mut Sheet) {
         }
     }
     for (width, motions) in by_width {
-        let swept = view.elements(motions.iter().flat_map(|m| m.trace()));
+        let mut seen = HashSet::new();
+        let is_new = |s: &Segment| seen.insert([s.start.x, s.start.y, s.end.x, s.end.y, s.sweep()].map(f64::to_bits));
+        let swept = view.elements(motions.iter().flat_map(|m| m.trace()).filter(is_new));
         sheet.canvas.stroke(&swept, palette::SWATH, width * view.scale, None);
         for motion in motions.iter().filter(|m| m.trace().next().is_none()) {
             sheet.canvas.disk(view.pixel(motion.to.xy()), 0.5 * width * view.scale, palette::SWATH);
@@ -178,7 +186,7 @@ fn draw_swaths(scene: &Scene, sheet: &mut Sheet) {
     }
 }
 
-fn draw_uncut(scene: &Scene, sheet: &mut Sheet) {
+fn draw_uncut(scene: &Scene, bounds: &Bounds, sheet: &mut Sheet) {
     let Some(uncut) = scene.uncut else { return };
     let view = sheet.view;
     let unit = sheet.unit;
@@ -187,7 +195,7 @@ fn draw_uncut(scene: &Scene, sheet: &mut Sheet) {
     sheet.canvas.fill(path.as_ref(), palette::UNCUT, None);
     sheet.canvas.hatch(palette::UNCUT_LINE, 6.0 * unit, 1.2 * unit, Some(&mask));
     sheet.canvas.stroke(path.as_ref(), palette::UNCUT_LINE, 0.8 * unit, None);
-    for center in circled(uncut, &bounds(scene)) {
+    for center in circled(uncut, bounds) {
         sheet.canvas.circle(view.pixel(center), 9.0 * unit, palette::UNCUT_LINE, 1.2 * unit);
     }
 }

@@ -7,9 +7,9 @@
 //! 3. Each sheet in a cell gets the point that is nearest to the tangent planes of its crossings.
 //! 4. Around each crossed edge four such points make a quad, which is cut along the diagonal that keeps to the level.
 
-use super::threads;
 use super::volume::{LONGEST_SIDE, MOST_CELLS, VolumeError};
 use crate::mesh::{Point, TriangleMesh, Vector};
+use crate::threads;
 
 /// A distance from the level, negative inside, and the direction in which it grows.
 #[derive(Clone, Copy, Debug)]
@@ -89,13 +89,15 @@ pub(super) fn contour(
     let mut corners: Vec<u64> = cells.iter().flat_map(|&cell| (0..8).map(move |c| corner_key(cell, c))).collect();
     corners.sort_unstable();
     corners.dedup();
-    let values = threads::map(&corners, |&k| field(grid.point(k)).value);
+    let values = threads::map(&corners, threads::available(), |&k| field(grid.point(k)).value);
     let edges = crossed_edges(&corners, &values);
-    let crossings = threads::map(&edges, |e| crossing(field, &grid, e));
+    let crossings = threads::map(&edges, threads::available(), |e| crossing(field, &grid, e));
     // Which edge belongs to which sheet of a cell, for every pattern of its corners.
     let sheets: Vec<[u8; 12]> = (0..256).map(sheets_of).collect();
     let active: Vec<Active> = cells.iter().filter_map(|&cell| Active::new(cell, &corners, &values)).collect();
-    let placed = threads::map(&active, |cell| cell.vertices(&grid, &sheets[cell.pattern], &edges, &crossings));
+    let placed = threads::map(&active, threads::available(), |cell| {
+        cell.vertices(&grid, &sheets[cell.pattern], &edges, &crossings)
+    });
     let mut firsts = Vec::with_capacity(active.len());
     let mut mesh = TriangleMesh::default();
     for points in &placed {
@@ -104,7 +106,7 @@ pub(super) fn contour(
     }
     let quads: Vec<[u32; 4]> = edges.iter().filter_map(|e| quad(e, &active, &sheets, &firsts)).collect();
     let points = &mesh.points;
-    let cut = threads::map(&quads, |&[a, b, c, d]| {
+    let cut = threads::map(&quads, threads::available(), |&[a, b, c, d]| {
         let off = |p: u32, q: u32| field(nalgebra::center(&points[p as usize], &points[q as usize])).value.abs();
         if off(a, c) <= off(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
     });
@@ -132,7 +134,7 @@ fn leaves(field: &(impl Fn(Point) -> Sample + Sync), grid: &Grid, high: Point) -
         let inside = |c: &[u32; 3]| (0..3).all(|k| c[k] < counts[k]);
         let candidates: Vec<[u32; 3]> = cells.iter().copied().flat_map(halved).filter(inside).collect();
         let reach = f64::from(size) * voxel * 0.75f64.sqrt() * SLACK;
-        let is_met = threads::map(&candidates, |c| {
+        let is_met = threads::map(&candidates, threads::available(), |c| {
             let middle = c.map(|x| f64::from(x) + 0.5 * f64::from(size));
             field(grid.origin + Vector::from(middle) * voxel).value.abs() <= reach
         });

@@ -19,7 +19,6 @@ pub mod overlay;
 mod solid;
 #[cfg(test)]
 pub(crate) mod surface_shapes;
-pub(crate) mod threads;
 mod volume;
 pub mod witness;
 

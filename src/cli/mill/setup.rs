@@ -6,7 +6,7 @@ use anyhow::{Context as _, Result, anyhow, bail};
 
 use super::drawn::{chosen, drawn_outlines, geometry, parts, shift};
 use super::setup_report::SetupReport;
-use super::setup_saved::sharp_programs;
+use super::setup_saved::{sharp_plan, sharp_programs, sharp_setup};
 use super::{
     FormatArg, LAP_DEPTH, LASER_POWER, MillArgs, Verdict, job_order, keep_page, laser_power, setup_page, stock_edges,
     target, travel,
@@ -25,6 +25,7 @@ use crate::gcode::{
 use crate::plane::{Point, Region};
 use crate::preview::{self, DEFAULT_SIZE, Scene};
 use crate::reference::Operation as ReferenceOperation;
+use crate::threads;
 use crate::units::Radius;
 
 /// A program of the job, as the machine gets it.
@@ -113,10 +114,17 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     let mut planned: Vec<Planned> = Vec::new();
     let mut worked_on: Vec<Geometry> = Vec::new();
     let mut holes: Vec<Hole> = Vec::new();
-    for operation in &setup.operations {
+    let sharp = sharp_setup(&setup);
+    let mut sharp_plans: Vec<Option<Planned>> = Vec::new();
+    for (k, operation) in setup.operations.iter().enumerate() {
         let geometry = drawn(operation, &holes).with_context(|| place(operation))?;
         check_amount(&setup, operation, &geometry).with_context(|| place(operation))?;
-        let mut plan = plan_operation(&setup, operation, &geometry).with_context(|| place(operation))?;
+        let (plan, sharp_plan) = threads::both(
+            || plan_operation(&setup, operation, &geometry),
+            || sharp.as_ref().and_then(|sharp| sharp_plan(&setup, sharp, k, &geometry)),
+        );
+        let mut plan = plan.with_context(|| place(operation))?;
+        sharp_plans.push(sharp_plan);
         if !matches!(operation.kind, OperationKind::Facing { .. }) {
             let covered = shapes.covered(&chosen(&shapes, operation)?);
             plan.notices.extend(covered.into_iter().map(|p| Notice::Covered(p * mm_per_unit + shift)));
@@ -135,11 +143,28 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     };
     let steps = steps(&setup, &planned);
     let written = write(args, &setup, &dialect, options, &steps, &target)?;
-    let (done, sharp) = cam::both(
-        || hold_against(&setup, &dialect, planned.clone(), &written),
-        || sharp_programs(&setup, &dialect, options, &planned, &worked_on),
+    let runs = runs(&planned, &written)?;
+    let has_files = target != Path::new("-");
+    let is_drawn = !args.no_preview && (has_files || args.html.is_some());
+    let draw_all = || -> Result<Vec<Option<Vec<u8>>>> {
+        let drawn_outlines = drawn_outlines(&shapes, mm_per_unit, shift);
+        let tools_of = |program: usize| {
+            let own = setup.operations.iter().zip(&runs).filter(move |(_, (of, _))| *of == program);
+            tools(&setup, own.map(|(operation, _)| operation))
+        };
+        let picture = |w: &Written| is_drawn.then(|| draw(&setup, &drawn_outlines, &tools_of(w.index), w)).transpose();
+        written.iter().map(picture).collect()
+    };
+    let (done, (pictures, sharp)) = threads::both(
+        || hold_against(&setup, &dialect, planned.clone(), &runs),
+        || {
+            let sharp = sharp
+                .as_ref()
+                .and_then(|sharp| sharp_programs(&setup, sharp, &dialect, options, &planned, sharp_plans));
+            (draw_all(), sharp)
+        },
     );
-    let done = done?;
+    let pictures = pictures?;
     let tabs_lost = job_order::tabs_lost(&setup, &done);
     let mut unsafe_travel = travel::beyond_travel(&setup, &written);
     unsafe_travel.extend(travel::collisions(&setup, &done, &written));
@@ -156,19 +181,8 @@ pub(super) fn run(args: &MillArgs, job: &Path, text: &str) -> Result<ExitStatus>
     if target == Path::new("-") && written.len() > 1 {
         bail!("the job takes {} programs, one a tool: name a file with --output", written.len());
     }
-    let has_files = target != Path::new("-");
-    let drawn_outlines = drawn_outlines(&shapes, mm_per_unit, shift);
-    let mut pictures: Vec<Option<Vec<u8>>> = vec![None; written.len()];
-    for (program, picture) in written.iter().zip(&mut pictures) {
-        if args.no_preview || !(has_files || args.html.is_some()) {
-            continue;
-        }
-        let png = draw(&setup, &drawn_outlines, &tools_of(&setup, &done, program.index), program)?;
-        if has_files {
-            let path = program.path.with_extension("png");
-            contents.push((path, png.clone()));
-        }
-        *picture = Some(png);
+    for (program, png) in written.iter().zip(&pictures).filter(|_| has_files) {
+        contents.extend(png.clone().map(|png| (program.path.with_extension("png"), png)));
     }
     let files: Vec<PathBuf> = contents.iter().map(|(path, _)| path.clone()).chain(args.html.clone()).collect();
     let report = SetupReport {
@@ -257,9 +271,11 @@ fn write(
                 target.with_file_name(name)
             }
         };
-        let findings = gcode::lint(&file.text, &LintOptions { dialect, stock_top: setup.stock.top });
-        let program =
-            gcode::read_as(&file.text, dialect).context("the program cannot be read back; please report this")?;
+        let (findings, program) = threads::both(
+            || gcode::lint(&file.text, &LintOptions { dialect, stock_top: setup.stock.top }),
+            || gcode::read_as(&file.text, dialect),
+        );
+        let program = program.context("the program cannot be read back; please report this")?;
         let deepest = setup.operations.iter().map(|o| o.cutting.depth).fold(0.0, f64::max);
         let program = with_heights(program, dialect, setup.rig.safe_height, setup.stock.top - deepest);
         written.push(Written { index, path, text: file.text, program, findings });
@@ -288,13 +304,8 @@ fn drawing_name(args: &MillArgs) -> String {
     name.chars().take(LONGEST_DRAWING_NAME).collect()
 }
 
-/// Every operation against the part of the programs that is its own.
-fn hold_against<'a>(
-    setup: &'a Setup,
-    dialect: &Dialect,
-    planned: Vec<Planned>,
-    written: &[Written],
-) -> Result<Vec<Done<'a>>> {
+/// The part of the programs that is each operation's own, behind the index of the program.
+fn runs(planned: &[Planned], written: &[Written]) -> Result<Vec<(usize, Program)>> {
     let runs: Vec<(usize, Program)> =
         written.iter().flat_map(|w| split_operations(&w.program).into_iter().map(|run| (w.index, run))).collect();
     if runs.len() != planned.len() {
@@ -304,24 +315,35 @@ fn hold_against<'a>(
             planned.len()
         ));
     }
+    Ok(runs)
+}
+
+/// Every operation against the part of the programs that is its own.
+fn hold_against<'a>(
+    setup: &'a Setup,
+    dialect: &Dialect,
+    planned: Vec<Planned>,
+    runs: &[(usize, Program)],
+) -> Vec<Done<'a>> {
     let all = setup.operations.iter().zip(planned).zip(runs);
-    Ok(all
-        .map(|((operation, planned), (program, run))| {
-            let tool = setup.tool_of(operation);
-            let (top, up) = (setup.stock.top, setup.rig.safe_height);
-            let run = with_heights(run, dialect, up, top - operation.cutting.depth);
-            let mut check = check_operation(&run, operation, &planned, tool, &setup.stock, &setup.rig.limits);
-            if !dialect.has_depth() && check.passes[0] > 0 {
-                // All passes are at one height: what counts is how often it goes around.
-                check.passes[1] = laps(&run, top).min(check.passes[0]);
-            }
-            let acceleration = setup.rig.limits.acceleration;
-            let path_radius = operation.cutting.path_radius_mm(acceleration[0].min(acceleration[1]));
-            let width = width(operation, &planned, tool);
-            let lost = lost(operation, &planned, 0.5 * width + path_radius);
-            Done { operation, planned, check, lost, width, path_radius, run, program }
-        })
-        .collect())
+    all.map(|((operation, planned), (program, run))| {
+        let tool = setup.tool_of(operation);
+        let (top, up) = (setup.stock.top, setup.rig.safe_height);
+        let run = with_heights(run.clone(), dialect, up, top - operation.cutting.depth);
+        let acceleration = setup.rig.limits.acceleration;
+        let path_radius = operation.cutting.path_radius_mm(acceleration[0].min(acceleration[1]));
+        let width = width(operation, &planned, tool);
+        let (mut check, lost) = threads::both(
+            || check_operation(&run, operation, &planned, tool, &setup.stock, &setup.rig.limits),
+            || lost(operation, &planned, 0.5 * width + path_radius),
+        );
+        if !dialect.has_depth() && check.passes[0] > 0 {
+            // All passes are at one height: what counts is how often it goes around.
+            check.passes[1] = laps(&run, top).min(check.passes[0]);
+        }
+        Done { operation, planned, check, lost, width, path_radius, run, program: *program }
+    })
+    .collect()
 }
 
 /// How wide the tool cuts in the plane of the shapes: a cone that breaks edges, as wide as it is there.
@@ -351,8 +373,13 @@ fn lost(operation: &Operation, planned: &Planned, radius: f64) -> Vec<LostFeatur
 
 /// The tools that a program uses.
 pub(super) fn tools_of(setup: &Setup, done: &[Done], program: usize) -> Vec<Tool> {
+    tools(setup, done.iter().filter(|d| d.program == program).map(|d| d.operation))
+}
+
+/// The tools of some operations.
+fn tools<'a>(setup: &Setup, operations: impl Iterator<Item = &'a Operation>) -> Vec<Tool> {
     let mut tools: Vec<Tool> = Vec::new();
-    for tool in done.iter().filter(|d| d.program == program).map(|d| setup.tool_of(d.operation)) {
+    for tool in operations.map(|operation| setup.tool_of(operation)) {
         if tools.iter().all(|known| known.number != tool.number) {
             tools.push(tool.clone());
         }

@@ -11,35 +11,39 @@ pub(super) struct SharpPrograms {
     same_outlines: bool,
 }
 
-/// Every operation that can be planned with sharp inside corners planned and written so, the others as they are. `None` where
-/// nothing is rounded.
-pub(super) fn sharp_programs(
-    setup: &Setup,
-    dialect: &Dialect,
-    options: WriteOptions,
-    rounded: &[Planned],
-    worked_on: &[Geometry],
-) -> Option<SharpPrograms> {
+/// The job with sharp inside corners; `None` where nothing is rounded.
+pub(super) fn sharp_setup(setup: &Setup) -> Option<Setup> {
     let mut sharp = setup.clone();
     for operation in sharp.operations.iter_mut().filter(|o| is_rounded(o)) {
         operation.cutting.path_radius = PathRadius::Length(0.0);
     }
-    if sharp.operations == setup.operations {
-        return None;
-    }
+    (sharp.operations != setup.operations).then_some(sharp)
+}
+
+/// The plan of an operation with sharp inside corners; `None` where it has none to round or cannot be planned so.
+pub(super) fn sharp_plan(setup: &Setup, sharp: &Setup, index: usize, geometry: &Geometry) -> Option<Planned> {
+    let operation = &sharp.operations[index];
+    (*operation != setup.operations[index]).then(|| plan_operation(sharp, operation, geometry).ok()).flatten()
+}
+
+/// The job written with those operations that could be planned with sharp inside corners, the others as they are.
+pub(super) fn sharp_programs(
+    setup: &Setup,
+    sharp: &Setup,
+    dialect: &Dialect,
+    options: WriteOptions,
+    rounded: &[Planned],
+    sharp_plans: Vec<Option<Planned>>,
+) -> Option<SharpPrograms> {
     let mut same_outlines = true;
     let mut planned = Vec::new();
-    let operations = setup.operations.iter().zip(&sharp.operations);
-    for (((before, operation), rounded), geometry) in operations.zip(rounded).zip(worked_on) {
-        let plan = match operation != before {
-            true => plan_operation(&sharp, operation, geometry).unwrap_or_else(|_| rounded.clone()),
-            false => rounded.clone(),
-        };
+    for ((operation, rounded), plan) in setup.operations.iter().zip(rounded).zip(sharp_plans) {
+        let plan = plan.unwrap_or_else(|| rounded.clone());
         let is_profile = matches!(operation.kind, OperationKind::Profile { rest_of: None, .. });
         same_outlines &= !is_profile || plan.toolpath.contour_count == rounded.toolpath.contour_count;
         planned.push(plan);
     }
-    let files = gcode::write_files(&steps(&sharp, &planned), &[], dialect, options).ok()?;
+    let files = gcode::write_files(&steps(sharp, &planned), &[], dialect, options).ok()?;
     let deepest = setup.operations.iter().map(|o| o.cutting.depth).fold(0.0, f64::max);
     let read = |text: &str| {
         let program = gcode::read_as(text, dialect).ok()?;

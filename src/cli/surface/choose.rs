@@ -10,6 +10,7 @@ use super::pins::Field;
 use crate::flow::{FlownSurface, Obstacle, OnContact, Status, SurfaceFlow, SurfaceSettings};
 use crate::mesh::{Hierarchy, NONE, Point, TriangleMesh, self_intersections, self_intersections_of};
 use crate::rolling::{ClosedSurface, Conflict, Roller, SurfaceOptions, Survey, Trouble, close_surface, land_surface};
+use crate::threads;
 
 /// A flow of which more than this part of the faces that moved is not the exact result is no result: what direct leaves
 /// unmoved is better than what is rough.
@@ -39,11 +40,6 @@ pub(super) struct Chosen {
     pub choice: Choice,
 }
 
-/// So many threads.
-pub(super) fn threads() -> usize {
-    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
-}
-
 /// Closes a surface directly, and by a flow that lands on the ball where that is not enough and may be had.
 pub(super) fn close(
     method: MethodArg,
@@ -52,8 +48,12 @@ pub(super) fn close(
     edge: f64,
     bar: &ProgressBar,
 ) -> Result<Chosen> {
-    let options =
-        SurfaceOptions { radius: &*field.radius, pin_distance: &*field.pin_distance, edge, threads: threads() };
+    let options = SurfaceOptions {
+        radius: &*field.radius,
+        pin_distance: &*field.pin_distance,
+        edge,
+        threads: threads::available(),
+    };
     let direct = close_surface(mesh, &options)?;
     let chosen = |surface, used, because: &str, summary: &str| {
         let choice = Choice { used, because: because.to_owned(), summary: summary.to_owned() };
@@ -92,7 +92,7 @@ pub(super) fn close(
     let look = |surface: &ClosedSurface, ease: f64| {
         let result = TriangleMesh::new(surface.points.clone(), surface.faces.clone());
         let radius = |p| (field.radius)(p).min(ease * (field.pin_distance)(p));
-        roller.survey(&result, &radius, edge, threads())
+        roller.survey(&result, &radius, edge, threads::available())
     };
     let [by_direct, by_flow] = [look(&direct, 1.0), look(&flown, PIN_EASE)];
     let says = |survey: &Survey, crossings: usize| {
@@ -157,7 +157,8 @@ fn flow_to_the_ball(mesh: &TriangleMesh, field: &Field, edge: f64) -> Result<Opt
     let flown = ClosedSurface { points, origins, faces, parents, ..ClosedSurface::default() };
     // Near pins the flow has its own radius.
     let pin_distance = |p| PIN_EASE * (field.pin_distance)(p);
-    let options = SurfaceOptions { radius: &*field.radius, pin_distance: &pin_distance, edge, threads: threads() };
+    let options =
+        SurfaceOptions { radius: &*field.radius, pin_distance: &pin_distance, edge, threads: threads::available() };
     Ok(Some(land_surface(mesh, &flown, &options)?))
 }
 

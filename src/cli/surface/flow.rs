@@ -4,7 +4,6 @@ use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
-use super::choose::threads;
 use super::pins::Field;
 use super::work::{Done, Input};
 use super::{Step, WorkArgs};
@@ -222,7 +221,7 @@ pub(super) fn run(
             let surface = TriangleMesh::new(result.points.clone(), result.faces.clone());
             let surface = if is_open { surface.reversed() } else { surface };
             let radius = |p| (field.radius)(p).min(PIN_EASE * (field.pin_distance)(p));
-            roller.survey(&surface, &radius, edge, threads())
+            roller.survey(&surface, &radius, edge, crate::threads::available())
         });
         states.push(Done {
             points: result.points,

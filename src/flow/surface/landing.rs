@@ -7,6 +7,7 @@
 use super::SurfaceFront;
 use super::spikes::MISSED;
 use crate::mesh::{Point, Vector};
+use crate::threads;
 
 /// Where a ball comes to rest nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,10 +32,6 @@ const LAST_CAPTURE: f64 = 4.0;
 /// A vertex that moved so often and has not landed is left where it is; moves that were to land count for more.
 pub(super) const TRIES: u8 = 128;
 pub(super) const LANDING_COST: u8 = 8;
-
-/// Each thread asks in so many parts, none smaller than so many vertices.
-const CHUNKS: usize = 8;
-const SMALLEST_CHUNK: usize = 64;
 
 /// Less than this, in edge lengths, is no motion while vertices could land from farther away.
 const STUCK: f64 = 1e-3;
@@ -96,24 +93,8 @@ impl SurfaceFront<'_> {
         let asked: Vec<u32> = vertices.iter().copied().filter(|&v| !self.is_known(v)).collect();
         let places: Vec<(Point, Vector, f64)> =
             asked.iter().map(|&v| (self.point(v), self.normal(v), self.vertices[v as usize].radius)).collect();
-        let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         // Each answer depends on its place alone, whatever the thread.
-        let mut landings: Vec<Option<Landing>> = vec![None; asked.len()];
-        let chunk = asked.len().div_ceil(threads * CHUNKS).max(SMALLEST_CHUNK);
-        let open = std::sync::Mutex::new(places.chunks(chunk).zip(landings.chunks_mut(chunk)));
-        let work = || {
-            let next = || open.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
-            while let Some((places, landings)) = next() {
-                for (&(p, normal, radius), landing) in places.iter().zip(landings) {
-                    *landing = contact(p, normal, radius);
-                }
-            }
-        };
-        if asked.len() <= chunk {
-            work();
-        } else {
-            std::thread::scope(|scope| (0..threads).for_each(|_| _ = scope.spawn(work)));
-        }
+        let landings = threads::map(&places, threads::available(), |&(p, normal, radius)| contact(p, normal, radius));
         for (v, landing) in asked.into_iter().zip(landings) {
             self.note_landing(v, landing);
         }

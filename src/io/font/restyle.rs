@@ -6,7 +6,6 @@
 //! within the tolerance of the operation on its own outline, and gets contours of its own where not.
 
 use std::collections::BTreeMap;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::compose::composed;
@@ -18,6 +17,7 @@ use super::glyf::{self, Composite, Glyph};
 use super::grid::{self, Rounded};
 use super::{polish, quadratics, settle, trace};
 use crate::plane::{BoundaryIndex, Region};
+use crate::threads;
 
 /// A result nearer to the outline than this part of the tolerance is the outline: nothing moved.
 const UNMOVED: f64 = 0.1;
@@ -110,7 +110,7 @@ pub(super) fn glyphs(
     let worker = Worker { face, operation, options };
     let finished = AtomicUsize::new(0);
     let report = || progress(finished.fetch_add(1, Ordering::Relaxed) + 1);
-    let simple = in_parallel(&ready, options.threads, |job| {
+    let simple = threads::map_long(&ready, options.threads, |job| {
         let done = worker.simple(job);
         report();
         done
@@ -129,7 +129,7 @@ pub(super) fn glyphs(
         if next.is_empty() {
             break;
         }
-        let results = in_parallel(&next, options.threads, |(_, composite)| {
+        let results = threads::map_long(&next, options.threads, |(_, composite)| {
             let result = worker.composite(composite, &done);
             report();
             result
@@ -146,28 +146,6 @@ pub(super) fn glyphs(
 struct Job {
     glyph: u16,
     source: Result<Source, &'static str>,
-}
-
-/// The results of `work` on all `jobs`, in their order.
-fn in_parallel<J: Sync, R: Send>(jobs: &[J], threads: usize, work: impl Fn(&J) -> R + Sync) -> Vec<R> {
-    let next = AtomicUsize::new(0);
-    let results = Mutex::new(Vec::with_capacity(jobs.len()));
-    std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, jobs.len().max(1)) {
-            scope.spawn(|| {
-                while let Some((k, job)) = {
-                    let k = next.fetch_add(1, Ordering::Relaxed);
-                    jobs.get(k).map(|job| (k, job))
-                } {
-                    let result = work(job);
-                    results.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((k, result));
-                }
-            });
-        }
-    });
-    let mut results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    results.sort_by_key(|(k, _)| *k);
-    results.into_iter().map(|(_, result)| result).collect()
 }
 
 struct Worker<'a> {

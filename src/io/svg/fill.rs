@@ -46,12 +46,11 @@ impl Filler<'_> {
             if clips.is_empty() {
                 areas.extend(group);
             } else {
-                let area = united(group);
+                let area = unite::united(group);
                 areas.push(self.within(area, clips));
             }
         }
-        areas.retain(|area| !area.is_empty());
-        united(areas)
+        unite::united(areas)
     }
 
     /// What one item fills, clip paths aside.
@@ -85,13 +84,5 @@ impl Filler<'_> {
         let rings = self.within(union, &clip.clips);
         self.clips.insert(index, rings.clone());
         rings
-    }
-}
-
-fn united(mut areas: Vec<Vec<Ring>>) -> Vec<Ring> {
-    match areas.len() {
-        0 => Vec::new(),
-        1 => areas.remove(0),
-        _ => unite::resolve(areas.concat(), Rule::AtLeast(1)),
     }
 }

@@ -92,12 +92,7 @@ impl Shapes {
         let closed: Vec<Ring> = stroked.filter(|line| line.is_closed).map(|line| line.ring).collect();
         let mut areas: Vec<Vec<Ring>> = chosen().map(|shape| shape.area.rings.clone()).collect();
         areas.push(unite::resolve(closed, Rule::EvenOdd));
-        areas.retain(|rings| !rings.is_empty());
-        match areas.len() {
-            0 => Region::default(),
-            1 => Region::new(areas.remove(0)),
-            _ => Region::new(unite::resolve(areas.concat(), Rule::AtLeast(1))),
-        }
+        Region::new(unite::united(areas))
     }
 
     /// The lines of those of the shapes with these indices that fill nothing; open ones joined where their ends meet.
@@ -124,12 +119,12 @@ impl Shapes {
     pub fn covered_shapes(&self, which: &[usize]) -> Vec<usize> {
         let is_filled = |k: &usize| self.shapes.get(*k).is_some_and(|shape| !shape.area.is_empty());
         let filled: Vec<usize> = which.iter().copied().filter(is_filled).collect();
-        let area = |k: usize| &self.shapes[filled[k]].area;
-        let bounds: Vec<Bounds> = (0..filled.len()).map(|k| area(k).bounds()).collect();
+        let region = |k: usize| &self.shapes[filled[k]].area;
+        let bounds: Vec<Bounds> = (0..filled.len()).map(|k| region(k).bounds()).collect();
+        let areas: Vec<f64> = (0..filled.len()).map(|k| region(k).area()).collect();
         let lies_on = |k: usize, j: usize| {
-            let (inner, outer) = (area(k), area(j));
-            let is_smaller = inner.area() < outer.area() || (inner == outer && j < k);
-            is_smaller && bounds[j].union(bounds[k]) == bounds[j] && outer.covers(inner)
+            let is_smaller = || areas[k] < areas[j] || (region(k) == region(j) && j < k);
+            bounds[j].union(bounds[k]) == bounds[j] && is_smaller() && region(j).covers(region(k))
         };
         let is_covered = |k: &usize| (0..filled.len()).any(|j| j != *k && lies_on(*k, j));
         (0..filled.len()).filter(is_covered).map(|k| filled[k]).collect()

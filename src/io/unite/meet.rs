@@ -11,7 +11,7 @@ use crate::plane::{Arc, Bounds, Link, Point, Ring, Segment};
 use super::nearby::along_curve;
 
 /// Links nearer than this, in parts of the larger side of the drawing, touch. A few cells of the overlay's grid.
-const TOUCH: f64 = 2.5e-13;
+pub(super) const TOUCH: f64 = 2.5e-13;
 
 /// How far the chords that stand for an arc in the end may stray from it, in parts of its radius. They are tested with
 /// that margin, so that nothing is missed; what is found for nothing costs time only.

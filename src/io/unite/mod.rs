@@ -14,7 +14,7 @@ mod nearby;
 mod overlay;
 mod restore;
 
-use crate::plane::{Bounds, Ring};
+use crate::plane::{Bounds, Ring, groups_apart};
 
 use nearby::Surroundings;
 
@@ -41,6 +41,25 @@ impl Rule {
             Rule::AtLeast(least) => winding >= least,
         }
     }
+}
+
+/// The union of areas, each of rings that neither cross nor touch along a line. Where no boxes meet it is all of them.
+pub(super) fn united(mut areas: Vec<Vec<Ring>>) -> Vec<Ring> {
+    areas.retain(|area| !area.is_empty());
+    if areas.len() < 2 {
+        return areas.pop().unwrap_or_default();
+    }
+    let around = |area: &Vec<Ring>| area.iter().fold(Bounds::EMPTY, |b, ring| b.union(ring.bounds()));
+    let boxes: Vec<Bounds> = areas.iter().map(around).collect();
+    let all = boxes.iter().copied().fold(Bounds::EMPTY, Bounds::union);
+    let extent = all.width().max(all.height());
+    let mut rings = areas.concat();
+    let nearby: Vec<Bounds> = boxes.iter().map(|b| b.inflated(meet::TOUCH * extent)).collect();
+    if !extent.is_finite() || groups_apart(&nearby).len() < boxes.len() {
+        return resolve(rings, Rule::AtLeast(1));
+    }
+    rings.retain(|ring| ring.area().abs() > SPECK * extent * extent);
+    rings
 }
 
 /// The boundary of what is solid: rings that neither cross nor touch along a line, solid on the left.

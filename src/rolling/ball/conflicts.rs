@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::covering::{Covering, State, area_vector};
-use super::parallel;
 use super::remesh::LONGEST;
 use crate::mesh::{Hierarchy, Point, cross};
+use crate::threads;
 
 /// The middle of an edge or a face may be this far from the closing, in edge lengths, where the surface is whole.
 const TORN: f64 = 1.0;
@@ -77,7 +77,7 @@ pub(super) fn find_since(covering: &Covering, before: Option<(&Covering, &Found)
     let hierarchy = Hierarchy::new(&covering.mesh.points, &faces);
     let changed: Vec<u32> =
         numbers.iter().copied().filter(|&f| covering.is_touched(f) && !is_good[f as usize]).collect();
-    let crossed = parallel::map(&changed, covering.threads, |&f| {
+    let crossed = threads::map(&changed, covering.threads, |&f| {
         let [a, b, c] = covering.mesh.triangle(f);
         let mut crossed = Vec::new();
         let agreement = covering.agreement(covering.mesh.face(f), &area_vector([a, b, c]));
@@ -101,7 +101,7 @@ pub(super) fn find_since(covering: &Covering, before: Option<(&Covering, &Found)
     }
     let may_miss = |f: u32| covering.is_coarse(f) && !bad.contains_key(&f) && !is_good[f as usize];
     let coarse: Vec<u32> = numbers.into_iter().filter(|&f| may_miss(f)).collect();
-    let missed = parallel::map(&coarse, covering.threads, |&f| {
+    let missed = threads::map(&coarse, covering.threads, |&f| {
         let is_kept = covering.mesh.face(f).iter().all(|&v| covering.is_kept(v));
         let stays = is_kept && !covering.filled.contains(&f) && !covering.is_clear(f);
         let radius = |p| covering.radius(p);
@@ -136,7 +136,7 @@ fn known_good(covering: &Covering, before: Option<(&Covering, &Found)>) -> Vec<b
 
 /// Looks at some faces.
 pub(super) fn among(covering: &Covering, faces: &[u32]) -> Found {
-    let looked = parallel::map(faces, covering.threads, |&f| look(covering, f));
+    let looked = threads::map(faces, covering.threads, |&f| look(covering, f));
     let mut found = Found { faces: Vec::new(), conflicts: Vec::new(), errors: Vec::new() };
     for (&f, seen) in faces.iter().zip(looked) {
         match seen {

@@ -6,8 +6,9 @@ use super::changes::Changes;
 use super::conflicts::{self, Trouble};
 use super::contact::Ground;
 use super::covering::{Covering, Refusals, State};
-use super::{BESIDE, ClosedSurface, SurfaceOptions, parallel};
+use super::{BESIDE, ClosedSurface, SurfaceOptions};
 use crate::mesh::{HalfEdgeMesh, NONE, NotManifold, Point, TriangleMesh, Vector};
+use crate::threads;
 
 /// A vertex lands where the ball touches if that is no farther than so many edge lengths.
 const NEAR: f64 = 2.0;
@@ -99,7 +100,7 @@ fn start<'a>(
         refusals: Refusals::default(),
     };
     let moved: Vec<u32> = (0u32..).zip(&near.origins).filter(|(_, origin)| **origin == NONE).map(|(v, _)| v).collect();
-    let rests = parallel::map(&moved, options.threads, |&v| {
+    let rests = threads::map(&moved, options.threads, |&v| {
         let x = covering.point(v);
         if covering.mesh.is_boundary(v) || covering.radius(x) <= 0.0 {
             return None;

@@ -16,7 +16,6 @@ mod hidden;
 mod land;
 mod memo;
 mod mend;
-mod parallel;
 mod remesh;
 mod result;
 mod retry;

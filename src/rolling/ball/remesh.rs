@@ -4,8 +4,8 @@
 use super::changes::Refused;
 use super::contact::{Rest, UNTOUCHED};
 use super::covering::{Covering, State, area_vector, quality};
-use super::parallel;
 use crate::mesh::{NONE, Point, Vector};
+use crate::threads;
 
 /// Edges shorter and longer than so many edge lengths are merged and split.
 pub(super) const SHORTEST: f64 = 0.4;
@@ -126,7 +126,7 @@ impl Covering<'_> {
 
     /// `f` of every item, as things are now.
     fn foreseen<T: Sync, R: Send>(&self, items: &[T], f: impl Fn(&Self, &T) -> R + Sync) -> Vec<R> {
-        parallel::map(items, self.threads, |item| f(self, item))
+        threads::map(items, self.threads, |item| f(self, item))
     }
 
     /// The ends of an edge and the corners opposite.

@@ -1,9 +1,10 @@
 //! Coarse faces of the input cut where the ball cannot touch them, so that there are vertices to move.
 
 use super::covering::{Covering, State};
+use super::remesh;
 use super::roll::Roll;
-use super::{parallel, remesh};
 use crate::mesh::{Point, Vector};
+use crate::threads;
 
 /// Faces are looked into so often at most; each time, what was found is cut down to the edge length.
 const LOOKS: usize = 64;
@@ -37,7 +38,7 @@ impl Roll {
                 .filter(|&f| is_clear[f as usize] != Some(covering.mesh.face(f)))
                 .collect();
             let looked_at: Vec<[u32; 3]> = faces.iter().map(|&f| covering.mesh.face(f)).collect();
-            let found = parallel::map(&faces, covering.threads, |&f| {
+            let found = threads::map(&faces, covering.threads, |&f| {
                 covering.ground.hidden_between(covering.mesh.triangle(f), &|p| covering.radius(p), covering.edge)
             });
             fresh = Vec::new();
@@ -63,7 +64,7 @@ impl Roll {
 
     /// Asks of some vertices whether the ball can touch them.
     fn look(&self, covering: &Covering, vertices: &[u32], is_hidden: &mut [bool]) {
-        let found = parallel::map(vertices, covering.threads, |&v| {
+        let found = threads::map(vertices, covering.threads, |&v| {
             let x = covering.point(v);
             covering.ground.is_hidden(x, self.normals[v as usize], covering.radius(x), covering.edge)
         });

@@ -3,8 +3,8 @@
 
 use super::contact::Rest;
 use super::covering::{Covering, State};
-use super::parallel;
 use crate::mesh::{Point, Vector};
+use crate::threads;
 
 /// A ridge that an edge cuts off by less than this many edge lengths is not worth a vertex.
 const WORTH: f64 = 0.04;
@@ -109,11 +109,11 @@ impl Covering<'_> {
     /// Puts vertices on the ridges that edges cross.
     pub fn sharpen(&mut self) {
         let edges = self.edges();
-        let heights = parallel::map(&edges, self.threads, |&h| self.crossing(self.mesh.origin(h), self.mesh.target(h)));
+        let heights = threads::map(&edges, self.threads, |&h| self.crossing(self.mesh.origin(h), self.mesh.target(h)));
         let mut edges: Vec<(f64, u32)> = heights.into_iter().zip(edges).collect();
         edges.retain(|(height, _)| *height > WORTH * self.edge);
         edges.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let found = parallel::map(&edges, self.threads, |&(_, h)| {
+        let found = threads::map(&edges, self.threads, |&(_, h)| {
             let (u, v) = (self.mesh.origin(h), self.mesh.target(h));
             let (_, a, b) = self.sides(u, v)?;
             let found = self.ridge(nalgebra::center(&self.point(u), &self.point(v)), &a, &b)?;

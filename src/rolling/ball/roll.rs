@@ -3,9 +3,9 @@
 use super::contact;
 use super::covering::{Covering, State};
 use super::hidden::DEAD_BAND;
-use super::parallel;
 use super::{BESIDE, TOUCHING};
 use crate::mesh::{Point, Vector};
+use crate::threads;
 
 /// An edge that gets longer than so many times its length, or so many edge lengths, is stretched: what lies between its ends
 /// may be lost.
@@ -48,7 +48,7 @@ pub(super) enum Target {
 impl Roll {
     /// The vertices of `among` that the ball does not touch along their normals.
     pub fn untouched(&self, covering: &Covering, among: Vec<u32>) -> Vec<u32> {
-        let is_untouched = parallel::map(&among, covering.threads, |&v| {
+        let is_untouched = threads::map(&among, covering.threads, |&v| {
             let (x, normal) = (covering.point(v), self.normals[v as usize]);
             let r = covering.radius(x);
             !covering.mesh.is_boundary(v)
@@ -67,7 +67,7 @@ impl Roll {
             .collect();
         open.sort_unstable();
         for cut in 0..=CUTS {
-            let found = parallel::map(&open, covering.threads, |&v| self.target(covering, v));
+            let found = threads::map(&open, covering.threads, |&v| self.target(covering, v));
             for (&v, target) in open.iter().zip(found) {
                 targets[v as usize] = Some(target);
             }
@@ -173,7 +173,7 @@ impl Roll {
         loop {
             let lost: Vec<u32> =
                 (0..covering.state.len() as u32).filter(|&v| covering.state[v as usize] == State::Lost).collect();
-            let found = parallel::map(&lost, covering.threads, |&v| {
+            let found = threads::map(&lost, covering.threads, |&v| {
                 let rests: Vec<(Vector, Vector)> = covering
                     .mesh
                     .neighbours(v)

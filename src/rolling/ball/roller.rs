@@ -2,8 +2,9 @@
 
 use super::contact::{Ground, UNTOUCHED};
 use super::remesh::LONGEST;
-use super::{BESIDE, TOUCHING, parallel};
+use super::{BESIDE, TOUCHING};
 use crate::mesh::{NotManifold, Point, TriangleMesh, Vector};
+use crate::threads;
 
 /// A surface that a ball rolls on from outside.
 #[derive(Clone, Debug)]
@@ -74,7 +75,7 @@ impl Roller {
         threads: usize,
     ) -> Survey {
         let faces: Vec<u32> = (0..surface.faces.len() as u32).collect();
-        let looked = parallel::map(&faces, threads, |&f| {
+        let looked = threads::map(&faces, threads, |&f| {
             let doubled = surface.area_vector(f as usize);
             let normal = doubled.try_normalize(0.0)?;
             let [a, b, c] = surface.triangle(f as usize);
