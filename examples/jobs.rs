@@ -114,6 +114,10 @@ fn run(number: u64, is_loud: bool) -> Result<bool, String> {
         let counts = [check.tabs, check.holes, check.passes];
         return Err(format!("tabs, holes, passes {counts:?}, {} islands {:?}\n{text}", islands.len(), islands.first()));
     }
+    // Told in words, and the job fails.
+    if !check.loose.is_empty() {
+        return Ok(false);
+    }
     let dropped: usize = planned.notices.iter().map(|n| if let Notice::TabsDropped(_, k) = n { *k } else { 0 }).sum();
     if planned.tabs.is_empty() && dropped == 0 && operation.cutting.tabs.is_some() {
         return Err(format!("tabs are gone without a word\n{text}"));

@@ -31,6 +31,11 @@ diameter = 10
 number = 3
 diameter = 1.5
 depth-per-pass = 0.75
+[[tool]]
+number = 4
+type = \"ball\"
+diameter = 3
+depth-per-pass = 2
 ";
 
 /// One operation: its name, and its keys.
@@ -114,6 +119,57 @@ fn outlines_that_the_tool_clears_need_no_tabs() {
     // Where they are named they are asked for.
     let named = operation("a", &format!("{OUT}; tabs = {{ at = [[25, -27]], width = 2, height = 1 }}"));
     mill(&plate(2.95), &[named], &[]).fails("a tab finds no place");
+}
+
+#[test]
+fn pieces_that_no_tab_holds_fail_the_job() {
+    let hole = |d: &str| format!("<path fill-rule=\"evenodd\" d=\"M5,5H95V95H5Z{d}\"/>");
+    let job = |count: usize, keys: &str| {
+        operation("a", &format!("{OUT}; tabs = {{ count = {count}, width = 3, height = 1 }}{keys}"))
+    };
+    // Two rooms joined by a passage that the tool clears: two slugs, and each needs a tab.
+    let rooms = hole("M20,30H40V45.5H60V30H80V70H60V50.5H40V70H20Z");
+    mill(&rooms, &[job(1, "")], &[]).fails("comes loose, no tab holds it");
+    mill(&rooms, &[job(4, "")], &[]).is_good();
+    // An island 6.3 mm from the wall: what stands between two cuts of 3 mm is what the tabs hold on to, and roughing takes it.
+    let ring = "M40,50a10,10 0 1 0 20,0a10,10 0 1 0 -20,0Z";
+    let island = hole(&format!("M33.7,50a16.3,16.3 0 1 0 32.6,0a16.3,16.3 0 1 0 -32.6,0Z{ring}"));
+    mill(&island, &[job(2, "")], &[]).is_good();
+    mill(&island, &[job(2, "; allowance = 0.4")], &[]).fails("no place on an outline");
+    // Where places are named the rest is meant to come loose, which is told.
+    let named = operation("a", &format!("{OUT}; tabs = {{ at = [[20, -50]], width = 3, height = 1 }}"));
+    let run = mill(&rooms, &[named], &[]);
+    run.is_good();
+    assert!(run.said.contains("note    a: a piece of"), "{}", run.said);
+}
+
+#[test]
+fn a_ball_leaves_a_slug_where_it_is_narrow_and_tabs_hold_it() {
+    // At the bottom of the stock a ball of 3 mm that goes 0.2 mm below it is 1.5 mm wide.
+    let plate =
+        "<path fill-rule=\"evenodd\" d=\"M10,10H70V50H10Z M27.1,30a2.9,2.9 0 1 1 5.8,0a2.9,2.9 0 1 1 -5.8,0Z\"/>";
+    let job = operation("a", &format!("{OUT}; tabs = {{ count = 2, width = 2, height = 1 }}"));
+    let flat = mill(plate, std::slice::from_ref(&job), &[]);
+    assert!(flat.said.contains("nothing comes loose"), "{}", flat.said);
+    let ball = mill(plate, &[job.replace("tool = 1", "tool = 4")], &[]);
+    ball.fails("find no place");
+    ball.fails("comes loose");
+}
+
+#[test]
+fn outlines_that_the_tool_can_cut_are_not_lost_to_a_path_radius_that_nobody_asked_for() {
+    // A hole of 3.6 mm, and two parts 3.6 mm apart; a tool of 3 mm that would go around corners with 0.8 mm.
+    let parts = "<path fill-rule=\"evenodd\" d=\"M10,10H40V40H10Z M20,25a1.8,1.8 0 1 1 3.6,0a1.8,1.8 0 1 1 -3.6,0Z\"/>\
+                 <rect x=\"43.6\" y=\"10\" width=\"20\" height=\"30\"/>";
+    let auto = operation("a", &format!("{OUT}; feed = 1200")).replace("path-radius = 0\n", "");
+    let run = mill(parts, std::slice::from_ref(&auto), &[]);
+    run.is_good();
+    assert!(run.said.contains("2 outlines have smaller path radii, down to 0.200 mm"), "{}", run.said);
+    // Asked for, it is kept, and what it loses is told.
+    let asked = auto.replace("[[operation]]", "[[operation]]\npath-radius = 0.8");
+    let run = mill(parts, &[asked], &[]);
+    run.fails("hole 3.60 mm wide");
+    run.fails("2 parts merge");
 }
 
 #[test]

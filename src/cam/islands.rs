@@ -5,8 +5,9 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 
 use super::motion::Program;
-use super::removal::{LEAST_UNCUT_DEPTH, paths_at_floor};
+use super::removal::LEAST_UNCUT_DEPTH;
 use super::stroke::{Polygon, Stroke};
+use super::swept::paths_at_floor;
 use crate::plane::{Point, Region, Ring, inscribed_circle};
 
 /// Chord error of the overlay, in tool radii.

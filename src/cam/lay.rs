@@ -64,6 +64,9 @@ pub enum Notice {
     TabsDropped(Point, usize),
     /// So many outlines have no tabs: the tool clears all that is inside of them, and nothing comes loose.
     NothingToHold(usize),
+    /// So many outlines, which the path radius that follows from feed and acceleration would lose, have smaller ones, down to
+    /// this, in millimetres.
+    PathRadiusEased(usize, f64),
     /// So many tabs stand on tight arcs.
     TabsOnArcs(Point, usize),
 }

@@ -6,7 +6,7 @@
 //! outline without any such place was never cut.
 
 use super::motion::{Motion, MotionKind};
-use super::removal::{FLOOR_ROUNDING, paths_at_floor};
+use super::swept::{FLOOR_ROUNDING, paths_at_floor};
 use crate::plane::{BoundaryIndex, Link, Point, Ring, Segment, Vector};
 
 /// Outlines nearer to the cut than this, in millimetres, are cut: programs of others follow curves by lines, and offset them in

@@ -22,7 +22,7 @@ use super::lay::{APPROACH, Laying};
 use super::lead::Room;
 use super::{
     ChamferError, Contour, Corners, Cutting, Direction, Hole, Move, MoveKind, Notice, OffsetError, Operation,
-    OperationKind, Remainder, Settings, Setup, Side, Tool, Toolpath, fit_arcs, offset,
+    OperationKind, PathRadius, Remainder, Settings, Setup, Side, Tool, Toolpath, close_for_path, fit_arcs, offset,
 };
 use crate::plane::{Point, Region, Ring, Turn, Vector};
 use crate::rolling::{self, Topology};
@@ -169,12 +169,12 @@ pub fn plan_operation(setup: &Setup, operation: &Operation, geometry: &Geometry)
             &work,
             geometry,
             *side,
-            larger_radius(setup, operation, *larger),
+            Larger::new(setup, operation, *larger),
             REST_STEPOVER * work.tool.diameter,
         ),
         OperationKind::Profile { side, corners, rest_of: None } => profile::plan(&work, geometry, *side, *corners),
         OperationKind::Pocket { stepover, rest_of: Some(larger), .. } => {
-            rest::plan(&work, geometry, Side::Inside, larger_radius(setup, operation, *larger), *stepover)
+            rest::plan(&work, geometry, Side::Inside, Larger::new(setup, operation, *larger), *stepover)
         }
         OperationKind::Pocket { pattern, stepover, corners, rest_of: None } => {
             pocket::plan(&work, geometry, *pattern, *stepover, *corners)
@@ -190,14 +190,23 @@ pub fn plan_operation(setup: &Setup, operation: &Operation, geometry: &Geometry)
 /// Distance between the paths of a profile's rest, in tool diameters.
 const REST_STEPOVER: f64 = 0.4;
 
-/// The radius by which an earlier tool has closed what stays: its own, and that of its path.
-fn larger_radius(setup: &Setup, operation: &Operation, diameter: f64) -> f64 {
-    let acceleration = setup.rig.limits.acceleration[0].min(setup.rig.limits.acceleration[1]);
-    let earlier = setup.operations.iter().filter(|o| o.line < operation.line);
-    let used = earlier.filter(|o| setup.tool_of(o).diameter == diameter);
-    let own = operation.cutting.path_radius_mm(acceleration);
-    let path_radius = used.map(|o| o.cutting.path_radius_mm(acceleration)).reduce(f64::max).unwrap_or(own);
-    0.5 * diameter + path_radius
+/// An earlier tool by which what stays was closed.
+#[derive(Clone, Copy, Debug)]
+struct Larger {
+    radius: f64,
+    path_radius: f64,
+    eases: bool,
+}
+
+impl Larger {
+    fn new(setup: &Setup, operation: &Operation, diameter: f64) -> Larger {
+        let acceleration = setup.rig.limits.acceleration[0].min(setup.rig.limits.acceleration[1]);
+        let earlier = setup.operations.iter().filter(|o| o.line < operation.line);
+        let used = earlier.filter(|o| setup.tool_of(o).diameter == diameter);
+        let path = |o: &Operation| (o.cutting.path_radius_mm(acceleration), o.cutting.path_radius == PathRadius::Auto);
+        let (path_radius, eases) = used.map(path).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or(path(operation));
+        Larger { radius: 0.5 * diameter, path_radius, eases }
+    }
 }
 
 /// An operation with all that it takes from the job.
@@ -230,11 +239,6 @@ impl<'a> Work<'a> {
             base: cutting.base(&setup.stock),
             path_radius: cutting.path_radius_mm(acceleration),
         }
-    }
-
-    /// What stays, closed for a path at `distance`.
-    fn level(&self, stays: &Region, distance: f64) -> Result<Level, OffsetError> {
-        Level::new(stays, distance, self.path_radius, self.cutting.topology)
     }
 
     /// z where rapid becomes plunge: above the stock, wherever the operation starts; whether others have cleared the way is not
@@ -337,5 +341,20 @@ impl Level {
         let outcome = rolling::close(stays, radius, topology);
         let path = offset(&outcome.region, distance)?;
         Ok(Level { closed: outcome.region, path, contradictions: outcome.contradictions })
+    }
+
+    /// The level beside the outlines themselves: none of those that the tool can cut is lost to a path radius that nobody asked
+    /// for, which is told.
+    fn beside_outlines(
+        work: &Work,
+        stays: &Region,
+        distance: f64,
+        notices: &mut Vec<Notice>,
+    ) -> Result<Level, OffsetError> {
+        let eases = work.cutting.path_radius == PathRadius::Auto;
+        let closed = close_for_path(stays, distance, work.path_radius, eases, work.cutting.topology);
+        notices.extend(closed.eased.map(|(count, least)| Notice::PathRadiusEased(count, least)));
+        let path = offset(&closed.region, distance)?;
+        Ok(Level { closed: closed.region, path, contradictions: closed.contradictions })
     }
 }

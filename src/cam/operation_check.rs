@@ -9,11 +9,12 @@ use super::cone_gouge::deepest_carving;
 use super::feeds::Feeds;
 use super::gouge::{Gouge, deepest_cut};
 use super::islands::{Island, islands};
+use super::loose::{LoosePiece, loose_pieces};
 use super::motion::{Motion, Program};
 use super::operation::{Keep, Planned};
 use super::operation_run::OPERATION_COMMENT;
 use super::removal::{Uncut, uncut};
-use super::setup::{Operation, OperationKind, Workpiece};
+use super::setup::{Cutting, Operation, OperationKind, Workpiece};
 use super::solid::Remainder;
 use super::time::{Machine, motion_seconds};
 use super::tool::ToolShape;
@@ -45,6 +46,8 @@ pub struct OperationCheck {
     pub overcut: Option<Gouge>,
     /// What is left standing beside the outline; only of profiles.
     pub uncut: Option<Uncut>,
+    /// What comes loose although tabs were asked for; only of profiles through the stock.
+    pub loose: Vec<LoosePiece>,
     /// What is left standing in a pocket.
     pub islands: Vec<Island>,
     /// Tabs that were asked for and placed, and those that the program leaves.
@@ -126,7 +129,13 @@ pub fn check_operation(
         OperationKind::VCarve { .. } => None,
         _ => against(&|k| deepest_cut(program, &k.kept, k.remainder, k.distance, stock_top)),
     };
-    let (uncut, (gouge, overcut)) = both(uncut, || (deepest(), overcut()));
+    let loose = || match operation.kind {
+        OperationKind::Profile { .. } if cutting.tabs.is_some() && is_through(cutting, stock) => {
+            loose_pieces(program, tool, cutting.base(stock))
+        }
+        _ => Vec::new(),
+    };
+    let ((uncut, loose), (gouge, overcut)) = both(|| (uncut(), loose()), || (deepest(), overcut()));
     OperationCheck {
         label: operation.label.clone(),
         tool: tool.number,
@@ -134,12 +143,18 @@ pub fn check_operation(
         gouge,
         overcut,
         uncut,
+        loose,
         islands,
         tabs: [planned.tabs.len(), planned.tabs.iter().filter(|tab| stands(&feeds, tab, tool.radius())).count()],
         holes: [planned.holes.len(), planned.holes.iter().filter(|hole| is_open(&feeds, hole)).count()],
         passes: [heights.len(), heights_reached(program, &heights)],
         statistics,
     }
+}
+
+/// Whether nothing of the stock stays below the cut; so it is taken to be where its thickness is not known.
+fn is_through(cutting: &Cutting, stock: &Workpiece) -> bool {
+    stock.thickness.is_none_or(|thickness| cutting.depth >= thickness - TAB_ROUNDING)
 }
 
 /// The deepest cut into the parts of other operations.

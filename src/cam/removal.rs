@@ -1,37 +1,22 @@
 //! What a program leaves standing next to the part: where the tool did not reach.
 //!
 //! Stages: the motions that reach the floor are joined to paths and stroked with the tool; strokes and outlines fall into groups
-//! that lie apart; of each, stock less swept less part
-//! is what stands beside the part; pieces of it that hang on the part are its places. A thin skin around the part is
-//! taken away first, because the rounding of a program leaves hairs between the places, and is given back by the
-//! length of contact.
+//! that lie apart; of each, stock less swept less part is what stands beside the part; pieces of it that hang on the part are its
+//! places. A thin skin around the part is taken away first, because the rounding of a program leaves hairs between the places,
+//! and is given back by the length of contact.
 
-use std::collections::HashSet;
-
-use i_overlay::core::fill_rule::FillRule;
-use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::float::single::SingleFloatOverlay;
-
-use super::motion::{Motion, MotionKind, Program};
+use super::motion::{Motion, Program};
 use super::solid::{Remainder, Solid};
-use super::stroke::{Polygon, Stroke, joined_lines};
-use crate::plane::{Bounds, Point, Region, Ring, Segment, groups_apart, inscribed_circle};
+use super::stroke::{Polygon, Stroke};
+use super::swept::{FLATTENING, Group, paths_at_floor, swept};
+use crate::plane::{Point, Region, Ring, Segment, inscribed_circle};
 use crate::threads;
 
 /// Thickness of the skin in millimetres: a few times what three decimals of a millimetre round away.
-const SKIN: f64 = 0.004;
+pub(super) const SKIN: f64 = 0.004;
 
 /// Places thinner than this, in millimetres, are rounding and not left standing.
 pub const LEAST_UNCUT_DEPTH: f64 = 0.012;
-
-/// Chord error of the overlay in millimetres: hairs of it stay within the skin.
-const FLATTENING: f64 = 0.1 * SKIN;
-
-/// Lines whose ends are this near to one line are taken as one, in millimetres: half of what three decimals round away.
-const STRAIGHTNESS: f64 = 5e-4;
-
-/// Motions this much above the floor, in millimetres, still reach it.
-pub(super) const FLOOR_ROUNDING: f64 = 0.005;
 
 /// What stands beside the part.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
@@ -84,16 +69,9 @@ pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor:
         return Uncut::default();
     }
     let largest_radius = paths.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
-    let mut cut = Vec::new();
+    let mut cut: Vec<Polygon> = Vec::new();
     for (paths, radius) in &paths {
-        let stroke = Stroke { radius: *radius, tolerance: FLATTENING };
-        for path in paths {
-            match path.as_slice() {
-                // A plunge.
-                [point] if point.start == point.end => cut.push(stroke.disk(point.start)),
-                _ => cut.extend(stroke.rings(&joined_lines(path, STRAIGHTNESS))),
-            }
-        }
+        cut.extend(swept(paths, *radius));
     }
     // The part with its skin.
     let skin = Stroke { radius: SKIN, tolerance: FLATTENING };
@@ -106,21 +84,11 @@ pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor:
         cut.push(skin.closed_side(&has_length));
     }
     let solid = Solid::new(part, remainder);
-    // What lies around all groups hangs together: nothing that stands alone is shared by two of them.
-    let around: Vec<Bounds> =
-        cut.iter().map(|ring| Bounds::of_points(ring.iter().map(|&[x, y]| Point::new(x, y)))).collect();
-    let groups: Vec<Group> = groups_apart(&around)
-        .into_iter()
-        .map(|members| {
-            let frame = members.iter().fold(Bounds::EMPTY, |b, &k| b.union(around[k])).inflated(largest_radius);
-            let around_pocket = (remainder == Remainder::Outside).then(|| rectangle(frame));
-            Group {
-                frame,
-                cut: members.into_iter().map(|k| std::mem::take(&mut cut[k])).chain(around_pocket).collect(),
-            }
-        })
-        .collect();
-    let found = threads::map_long(&groups, threads::available(), |group| group.uncut(&solid));
+    let mut groups = Group::all(cut, largest_radius);
+    if remainder == Remainder::Outside {
+        groups.iter_mut().for_each(Group::surround);
+    }
+    let found = threads::map_long(&groups, threads::available(), |group| uncut_group(group, &solid));
     let mut result = Uncut { is_cut_free: true, ..Uncut::default() };
     for group in found {
         result.area_mm2 += group.area_mm2;
@@ -131,75 +99,25 @@ pub(super) fn uncut_by(runs: &[Run], part: &Region, remainder: Remainder, floor:
     result
 }
 
-/// Rings of what is swept and of the part with its skin, away from all others.
-struct Group {
-    frame: Bounds,
-    cut: Vec<Polygon>,
-}
-
-impl Group {
-    /// What stands within the frame.
-    fn uncut(&self, solid: &Solid) -> Uncut {
-        let stock = vec![rectangle(self.frame)];
-        let left = stock.overlay_as::<i64>(&self.cut, OverlayRule::Difference, FillRule::NonZero);
-        let mut result = Uncut { is_cut_free: true, ..Uncut::default() };
-        for shape in left {
-            let vertices = || shape.iter().flatten().map(|&[x, y]| Point::new(x, y));
-            if !vertices().any(|p| solid.boundary.is_nearer(p, 1.5 * SKIN)) {
-                continue;
-            }
-            if solid.remainder == Remainder::Inside && vertices().any(|p| is_on_frame(p, &self.frame)) {
-                result.is_cut_free = false;
-                continue;
-            }
-            if let Some(place) = place(&shape, solid) {
-                result.area_mm2 += place.area_mm2;
-                result.places.push(place);
-            }
-        }
-        result
-    }
-}
-
-/// The paths of all motions at the floor, joined where they follow each other; each trace once. A plunge is a line
-/// without length.
-pub(super) fn paths_at_floor(motions: &[Motion], floor: f64) -> Vec<Vec<Segment>> {
-    let mut seen = HashSet::new();
-    let mut paths: Vec<Vec<Segment>> = Vec::new();
-    let mut is_open = false;
-    for motion in motions {
-        if matches!(motion.kind, MotionKind::Dwell { .. }) {
+/// What stands in a group of rings: of what is swept and of the part with its skin.
+fn uncut_group(group: &Group, solid: &Solid) -> Uncut {
+    let mut result = Uncut { is_cut_free: true, ..Uncut::default() };
+    for shape in group.left() {
+        let vertices = || shape.iter().flatten().map(|&[x, y]| Point::new(x, y));
+        // The frame itself may lie on what another group goes around.
+        if !vertices().any(|p| !group.is_on_frame(p) && solid.boundary.is_nearer(p, 1.5 * SKIN)) {
             continue;
         }
-        let plunge = motion.trace().next().is_none().then(|| Segment::line(motion.to.xy(), motion.to.xy()));
-        let lowest_that_counts = if plunge.is_some() { motion.to.z } else { motion.from.z.max(motion.to.z) };
-        if lowest_that_counts > floor + FLOOR_ROUNDING {
-            is_open = false;
+        if solid.remainder == Remainder::Inside && vertices().any(|p| group.is_on_frame(p)) {
+            result.is_cut_free = false;
             continue;
         }
-        for element in motion.trace().chain(plunge) {
-            let key = [element.start.x, element.start.y, element.end.x, element.end.y, element.sweep()];
-            if !seen.insert(key.map(f64::to_bits)) {
-                is_open = false;
-                continue;
-            }
-            match paths.last_mut().filter(|_| is_open) {
-                Some(path) => path.push(element),
-                None => paths.push(vec![element]),
-            }
-            is_open = true;
+        if let Some(place) = place(&shape, solid) {
+            result.area_mm2 += place.area_mm2;
+            result.places.push(place);
         }
     }
-    paths
-}
-
-fn rectangle(b: Bounds) -> Polygon {
-    vec![[b.min.x, b.min.y], [b.max.x, b.min.y], [b.max.x, b.max.y], [b.min.x, b.max.y]]
-}
-
-fn is_on_frame(p: Point, frame: &Bounds) -> bool {
-    let near = |a: f64, b: f64| (a - b).abs() < SKIN;
-    near(p.x, frame.min.x) || near(p.x, frame.max.x) || near(p.y, frame.min.y) || near(p.y, frame.max.y)
+    result
 }
 
 /// The point of some edges farthest from the part, at least as far as `deepest`; not looked for where all of them are nearer
@@ -352,6 +270,23 @@ mod tests {
         let found = left(path, &part, Remainder::Inside, 2.0);
         assert!(found.places.len() == 1 && (found.area_mm2 - 12.0).abs() < 0.01, "{found:?}");
         assert!((found.places[0].depth_mm - 1.4415).abs() < 0.03, "{:?}", found.places[0].depth_mm);
+    }
+
+    #[test]
+    fn a_part_that_the_frame_of_another_one_touches_is_cut_free() {
+        // The corner of the frame around what a tool of 10 mm sweeps around the first part lies on the second one.
+        let square = |x: f64, y: f64| polygon(&[[x, y], [x + 20.0, y], [x + 20.0, y + 20.0], [x, y + 20.0]]);
+        let part = Region::new(vec![square(0.0, 0.0), square(35.0, 20.0)]);
+        let around = |x0: f64, y0: f64, x1: f64, y1: f64| {
+            let path = format!("G0 X{x0} Y{y0}\nG1 Z-1\nG1 X{x1}\nG1 Y{y1}\nG1 X{x0}\nG1 Y{y0}\nG0 Z5\n");
+            read(&format!("{HEAD}{path}")).unwrap()
+        };
+        let (first, second) = (around(-5.0, -5.0, 25.0, 25.0), around(34.5, 19.5, 55.5, 40.5));
+        let runs = [(&first, 5.0), (&second, 0.5)].map(|(p, tool_radius)| Run { motions: &p.motions, tool_radius });
+        let found = uncut_by(&runs, &part, Remainder::Inside, -1.0);
+        assert!(found.is_cut_free && found.places.is_empty(), "{found:?}");
+        // And one that is not, is not.
+        assert!(!uncut_by(&runs[..1], &part, Remainder::Inside, -1.0).is_cut_free);
     }
 
     #[test]

@@ -43,6 +43,11 @@ impl Strands {
         Strands { elements: elements.copied().collect() }
     }
 
+    /// Whether any path comes nearer than `distance` to `p`.
+    pub(super) fn come_nearer(&self, p: Point, distance: f64) -> bool {
+        self.elements.iter().any(|strand| strand.segment.is_nearer(p, distance))
+    }
+
     /// Whether another path, or the same path on its way back, is nearer than `distance` to `p`, which is on `path` at
     /// `way` from its start.
     pub(super) fn pass(&self, p: Point, path: usize, way: f64, distance: f64) -> bool {

@@ -3,7 +3,7 @@
 use super::strands::Strands;
 use super::walk::Walk;
 use super::{TabPlaces, Tabs};
-use crate::plane::{Bounds, Link, Point, Segment};
+use crate::plane::{Bounds, Link, Point, Segment, Turn, right_normal};
 
 /// Length of a tab's flank in heights of the tab over the floor: its steepest place, in the middle, then has 45 degrees.
 const FLANK: f64 = 1.5;
@@ -24,6 +24,9 @@ const SEARCH_STEPS: usize = 720;
 /// path that a tab could hold on to.
 const HOLD: f64 = 0.99;
 
+/// Tabs hold on to what stands this far beside the tool, in tool diameters.
+const BESIDE: f64 = 0.02;
+
 /// Half of the narrowest that the way around a corner may leave of a tab, in widths of the tab: where it is wanted, and where
 /// there are only tight arcs.
 const NECK: [f64; 2] = [0.25, 0.1];
@@ -40,11 +43,21 @@ pub(super) struct Ground<'a> {
     pub seam: f64,
     /// How far beside the path another one runs that passes over the same tabs.
     pub allowance: f64,
+    /// The side of the paths on which the waste is.
+    pub waste: Turn,
     /// All paths.
     pub strands: &'a Strands,
 }
 
 impl Ground<'_> {
+    /// Whether something stands beside the path, at `way` on it, that a tab could hold on to: no path takes it away.
+    fn holds(&self, walk: &Walk, way: f64, strands: &Strands) -> bool {
+        let swept = 0.5 * self.tool_diameter + self.allowance;
+        let outward = right_normal(walk.tangent_at(way));
+        let aside = if self.waste == Turn::Right { outward } else { -outward };
+        !strands.come_nearer(walk.point_at(way) + aside * (swept + BESIDE * self.tool_diameter), swept)
+    }
+
     /// How far the tool goes down from the top of a tab.
     fn fall(&self, tabs: &Tabs) -> f64 {
         self.base + tabs.height - self.floor
@@ -172,7 +185,9 @@ impl TabLine {
         let mut placed = Placed { asked: wanted.len(), line: TabLine::empty(tabs, walk, ground), ..Placed::default() };
         let half = placed.line.plateau;
         let bounds = walk.segments().iter().fold(Bounds::EMPTY, |b, s| b.union(s.bounds()));
-        let strands = ground.strands.near(bounds, HOLD * ground.tool_diameter);
+        // The roughing takes of what lies between two paths on both sides.
+        let hold = HOLD * ground.tool_diameter + 2.0 * ground.allowance;
+        let strands = ground.strands.near(bounds, hold + 2.0 * BESIDE * ground.tool_diameter);
         let round = tight_stretches(walk.segments(), ROUND * ground.tool_diameter);
         let tight = tight_stretches(walk.segments(), TIGHT * ground.tool_diameter);
         for way in wanted {
@@ -184,7 +199,8 @@ impl TabLine {
                 clear(0.0, ground.seam)
                     && placed.line.middles.iter().all(|&m| clear(m, reach))
                     && !arcs.unwrap_or_default().iter().any(|&(a, b)| overlaps(at, half, a, b, length))
-                    && !strands.pass(walk.point_at(at), path, at, HOLD * ground.tool_diameter)
+                    && !strands.pass(walk.point_at(at), path, at, hold)
+                    && ground.holds(walk, at, &strands)
                     && stays(
                         walk,
                         at,
@@ -286,7 +302,15 @@ mod tests {
             tabs,
             walk,
             0,
-            &Ground { base: -6.0, floor: -6.0, tool_diameter, allowance: 0.0, seam, strands: &strands },
+            &Ground {
+                base: -6.0,
+                floor: -6.0,
+                tool_diameter,
+                allowance: 0.0,
+                waste: Turn::Right,
+                seam,
+                strands: &strands,
+            },
         )
     }
 

@@ -25,8 +25,8 @@ use super::engaged::{laps, with_heights};
 use super::report::{MillReport, Verdict, gouges};
 use super::{ExitStatus, input, output};
 use crate::cam::{
-    self, Certificate, CertifyOptions, Entry, Job, JobFile, Machine, OffsetError, PlanError, Program, Remainder,
-    SetupFile, Side, Tool, Toolpath,
+    self, Certificate, CertifyOptions, ClosedForPath, Entry, Job, JobFile, Machine, OffsetError, PathRadius, PlanError,
+    Program, Remainder, SetupFile, Side, Tool, Toolpath,
 };
 use crate::check::{LostFeature, lost_features};
 use crate::gcode::{self, Arcs, DIALECT_COMMENT, Dialect, Finding, LintOptions, MachineKind, Units, WriteOptions};
@@ -34,7 +34,7 @@ use crate::io::svg::Drawing;
 use crate::plane::Region;
 use crate::preview::{self, DEFAULT_SIZE, Scene};
 use crate::reference::Operation;
-use crate::rolling::{self, Topology};
+use crate::rolling::Topology;
 use crate::threads;
 use crate::units::{Length, Radius};
 pub(super) use args::MillArgs;
@@ -56,6 +56,14 @@ struct Plan {
     toolpath: Toolpath,
     lost: Vec<LostFeature>,
     contradictions: usize,
+    /// Outlines with a smaller path radius, and the smallest.
+    eased: Option<(usize, f64)>,
+}
+
+/// What stays, closed, and the way around it.
+struct Shape {
+    closed: ClosedForPath,
+    toolpath: Toolpath,
 }
 
 /// The program, and what it was found to do.
@@ -155,6 +163,7 @@ pub(super) fn run(args: &MillArgs) -> Result<ExitStatus> {
         lost: &plan.lost,
         findings: &checked.findings,
         contradictions: plan.contradictions,
+        eased: plan.eased,
         covered: covered.len(),
         accept_losses: args.accept_losses,
         saved: saved.as_ref(),
@@ -266,7 +275,8 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
             if size < 0.1 { format!("{size:.1e}") } else { format!("{size:.1}") }
         );
     }
-    let (closed, toolpath, contradictions) = shape(settings, part)?;
+    let Shape { closed, toolpath } = shape(settings, part)?;
+    let ClosedForPath { region: closed, contradictions, eased } = closed;
     // From here on in the machine's coordinates, which are those of the certificate and of the picture.
     let part = part.translated(toolpath.translation);
     let kept = match job.side {
@@ -274,7 +284,7 @@ fn make_plan(settings: &Settings, part: &Region) -> Result<Plan> {
         Side::Inside => closed.reversed(),
     }
     .translated(toolpath.translation);
-    Ok(Plan { part, kept, toolpath, lost: Vec::new(), contradictions })
+    Ok(Plan { part, kept, toolpath, lost: Vec::new(), contradictions, eased })
 }
 
 /// What the closing by the tool and the path radius takes of the part.
@@ -291,19 +301,13 @@ fn lost(job: &Job, plan: &Plan) -> Result<Vec<LostFeature>> {
     Ok(lost_features(&plan.part, &plan.kept, Radius::new(radius)?, operation))
 }
 
-/// What stays, closed by the tool and the path radius, and the way around it; and how many contradictions rounding left.
-fn shape(settings: &Settings, part: &Region) -> Result<(Region, Toolpath, usize)> {
+/// What stays, closed by the tool and the path radius, and the way around it.
+fn shape(settings: &Settings, part: &Region) -> Result<Shape> {
     let job = &settings.job;
     let stays = job.side.kept_material(part);
-    let radius = job.closing_radius();
-    // On the outline with sharp turns allowed nothing is closed.
-    let (closed, contradictions) = if radius > 0.0 {
-        let outcome = rolling::close(&stays, Radius::new(radius)?, settings.topology);
-        (outcome.region, outcome.contradictions)
-    } else {
-        (stays, 0)
-    };
-    let toolpath = cam::plan(job, part, &closed).map_err(|error| match (error, settings.topology) {
+    let eases = job.path_radius == PathRadius::Auto;
+    let closed = cam::close_for_path(&stays, job.offset_distance(), job.path_radius_mm(), eases, settings.topology);
+    let toolpath = cam::plan(job, part, &closed.region).map_err(|error| match (error, settings.topology) {
         (PlanError::Offset(OffsetError::NoRoom { at }), Topology::Keep) => anyhow!(
             "the tool does not fit between parts of the outline at ({:.4}, {:.4}) of the drawing, y down, in millimetres: \
              try --topology merge, which fills such places, or a smaller tool",
@@ -312,7 +316,7 @@ fn shape(settings: &Settings, part: &Region) -> Result<(Region, Toolpath, usize)
         ),
         (error, _) => error.into(),
     })?;
-    Ok((closed, toolpath, contradictions))
+    Ok(Shape { closed, toolpath })
 }
 
 /// Writes the program, and from here on believes only what it says.

@@ -40,6 +40,8 @@ pub(super) struct MillReport<'a> {
     pub(super) lost: &'a [LostFeature],
     pub(super) findings: &'a [Finding],
     pub(super) contradictions: usize,
+    /// Outlines with a smaller path radius, and the smallest in millimetres.
+    pub(super) eased: Option<(usize, f64)>,
     /// How many shapes lie wholly on others and change nothing.
     pub(super) covered: usize,
     pub(super) accept_losses: bool,
@@ -129,6 +131,7 @@ impl MillReport<'_> {
             "lost_features": self.lost,
             "findings": self.findings,
             "contradictions": self.contradictions,
+            "smaller_path_radius": self.eased.map(|(outlines, least)| json!({ "outlines": outlines, "least_mm": least })),
             "covered_shapes": self.covered,
             "good": self.verdict() == Verdict::Good,
             "written": self.written,
@@ -172,6 +175,9 @@ impl MillReport<'_> {
                 self.length(self.job.closing_radius(), 3),
             ),
         );
+        if let Some((count, least)) = self.eased {
+            line("", eased(count, least));
+        }
         line(
             "depth",
             format!(
@@ -334,6 +340,14 @@ fn count(n: usize, what: &str) -> String {
 /// Sizes of features are known to this part of themselves.
 const SIZE_ACCURACY: f64 = 0.01;
 
+/// That some outlines have a smaller path radius than the others.
+pub(super) fn eased(count: usize, least: f64) -> String {
+    match count {
+        1 => format!("one outline has a path radius of {least:.3} mm: a larger one would lose it"),
+        _ => format!("{count} outlines have smaller path radii, down to {least:.3} mm: larger ones would lose them"),
+    }
+}
+
 /// Why a feature of this width is lost.
 pub(super) fn why_lost(width: f64, tool_diameter: f64, path_radius: f64) -> String {
     if (width - tool_diameter).abs() < SIZE_ACCURACY * tool_diameter {
@@ -399,6 +413,7 @@ mod tests {
                 lost: &[],
                 findings: &[],
                 contradictions: 0,
+                eased: None,
                 covered: 0,
                 accept_losses: false,
                 saved: None,

@@ -2,15 +2,39 @@
 
 use super::Bounds;
 
-/// The boxes in groups such that the boxes around any two groups share no point, and as many groups as there can be: what
-/// lies between the groups hangs together. Groups are in the order of their first members, members in the order given.
+/// Whether any two boxes share a point: a sweep from the left.
+pub fn any_meet(boxes: &[Bounds]) -> bool {
+    let mut order: Vec<&Bounds> = boxes.iter().filter(|b| !b.is_empty()).collect();
+    order.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));
+    // Those that what comes may still meet.
+    let mut open: Vec<&Bounds> = Vec::new();
+    order.into_iter().any(|next| {
+        open.retain(|b| b.max.x >= next.min.x);
+        let meets = open.iter().any(|b| b.overlaps(next));
+        open.push(next);
+        meets
+    })
+}
+
+/// So many sweeps are made; where groups then still grow into each other, all is one group.
+const MOST_SWEEPS: usize = 16;
+
+/// The boxes in groups such that the boxes around any two groups share no point: what lies between the groups hangs together.
+/// Groups are in the order of their first members, members in the order given, and there are as many as there can be, but for
+/// boxes so contrived that the groups have not settled after [`MOST_SWEEPS`].
 ///
 /// A sweep from the left; groups that have grown into each other are found by the next one. Empty boxes are left out.
 pub fn groups_apart(boxes: &[Bounds]) -> Vec<Vec<usize>> {
     let mut groups: Vec<(Bounds, Vec<usize>)> =
         boxes.iter().enumerate().filter(|(_, b)| !b.is_empty()).map(|(k, b)| (*b, vec![k])).collect();
-    loop {
+    for sweep in 0.. {
         let before = groups.len();
+        if sweep == MOST_SWEEPS {
+            groups = vec![groups.into_iter().fold((Bounds::EMPTY, vec![]), |mut all, (bounds, members)| {
+                all.1.extend(members);
+                (all.0.union(bounds), all.1)
+            })];
+        }
         groups.sort_by(|a, b| a.0.min.x.total_cmp(&b.0.min.x));
         let mut passed = Vec::with_capacity(before);
         // Those that what comes may still overlap.
@@ -60,6 +84,8 @@ mod tests {
             [square(0.0, 0.0, 1.0), square(5.0, 0.0, 1.0), square(1.0, 1.0, 1.0), Bounds::EMPTY, square(2.0, 1.5, 1.0)];
         assert_eq!(groups_apart(&boxes), [vec![0, 2, 4], vec![1]]);
         assert_eq!(groups_apart(&[]), Vec::<Vec<usize>>::new());
+        assert!(any_meet(&boxes) && !any_meet(&boxes[..2]) && !any_meet(&[Bounds::EMPTY; 2]));
+        assert!(any_meet(&[square(0.0, 0.0, 1.0), square(9.0, 0.0, 1.0), square(1.0, 1.0, 1.0)]), "corners that touch");
     }
 
     #[test]
@@ -75,6 +101,24 @@ mod tests {
             bar(20.0, 4.0, 21.0, 5.0),
         ];
         assert_eq!(groups_apart(&boxes), [vec![0, 1, 2, 3, 4], vec![5]]);
+    }
+
+    #[test]
+    fn groups_that_grow_into_each_other_without_end_are_one() {
+        // Every step of the stairs meets what all before it have become, and no single one of them.
+        let bar = |x0: f64, y0: f64, x1: f64, y1: f64| Bounds { min: Point::new(x0, y0), max: Point::new(x1, y1) };
+        let mut boxes = vec![bar(0.0, 0.0, 1.0, 1.0)];
+        for k in 1..200 {
+            let x = f64::from(k);
+            boxes.extend([bar(-x, x, 1.0 - x, x + 1.5), bar(x, -0.5, x + 1.0, 0.5)]);
+        }
+        let groups = groups_apart(&boxes);
+        let around: Vec<Bounds> =
+            groups.iter().map(|g| g.iter().fold(Bounds::EMPTY, |b, &k| b.union(boxes[k]))).collect();
+        for i in 0..around.len() {
+            assert!((0..i).all(|j| !around[i].overlaps(&around[j])));
+        }
+        assert_eq!(groups.iter().map(Vec::len).sum::<usize>(), boxes.len());
     }
 
     #[test]

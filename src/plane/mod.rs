@@ -21,7 +21,7 @@ mod segment;
 mod segment_distance;
 mod stretch;
 
-pub use apart::groups_apart;
+pub use apart::{any_meet, groups_apart};
 pub use biarc::{Biarc, Place};
 pub use bounds::Bounds;
 pub use chain_tree::ChainTree;

@@ -41,9 +41,15 @@ pub(super) fn plan(
     let stays = Side::Inside.kept_material(&geometry.area);
     let radius = work.tool.radius();
     let rough_distance = radius + work.cutting.allowance;
-    let outline = work.level(&stays, rough_distance)?;
+    let mut notices = Vec::new();
+    let outline = Level::beside_outlines(work, &stays, rough_distance, &mut notices)?;
     let is_finished = work.cutting.allowance > 0.0 && work.cutting.finish;
-    let last = if is_finished { work.level(&stays, radius)? } else { outline.clone() };
+    let last = if is_finished {
+        notices.clear();
+        Level::beside_outlines(work, &stays, radius, &mut notices)?
+    } else {
+        outline.clone()
+    };
     if last.path.is_empty() {
         return Err(OperationError::TooLarge { diameter: work.tool.diameter });
     }
@@ -54,7 +60,7 @@ pub(super) fn plan(
         room: Room { solid: &solid, distance: rough_distance, others: None, tabs: &[] },
         join: LONGEST_JOIN * stepover,
         moves: work.first_moves(),
-        notices: Vec::new(),
+        notices,
         count: 0,
     };
     let heights = work.cutting.pass_heights(work.stock_top);

@@ -2,7 +2,7 @@
 
 use super::finish::Roughing;
 use super::relief::{insert, insert_ways, reliefs, relieved};
-use super::{Corners, Geometry, Keep, OperationError, Planned, TabPlace, Work, fitted};
+use super::{Corners, Geometry, Keep, Level, OperationError, Planned, TabPlace, Work, fitted};
 use crate::cam::entry::EntryPlace;
 use crate::cam::lay::{HELIX_RADIUS, Notice, Pen};
 use crate::cam::lead::Room;
@@ -20,12 +20,16 @@ pub(super) fn plan(work: &Work, geometry: &Geometry, side: Side, corners: Corner
     }
     let stays = side.kept_material(&geometry.area);
     let distance = if side == Side::On { 0.0 } else { work.tool.radius() };
-    let final_level = work.level(&stays, distance)?;
+    let mut notices = Vec::new();
+    let final_level = Level::beside_outlines(work, &stays, distance, &mut notices)?;
     let rough = match work.cutting.allowance {
-        allowance if allowance > 0.0 && side != Side::On => Some(work.level(&stays, distance + allowance)?),
+        allowance if allowance > 0.0 && side != Side::On => {
+            Some(Level::beside_outlines(work, &stays, distance + allowance, &mut Vec::new())?)
+        }
         _ => None,
     };
     let mut cuts = Cuts::new(work, geometry, &final_level.closed, distance, side);
+    cuts.notices = notices;
     let heights = work.cutting.pass_heights(work.stock_top);
     let skin = work.cutting.onion_skin.map(|skin| work.base + skin);
     // Everything down to the skin, if there is one; then the walls; then the skin.
@@ -153,8 +157,10 @@ impl<'a> Cuts<'a> {
         routes.iter().enumerate().for_each(|(k, route)| strands.add(k, &route.path));
         let ground = self.ground(&strands);
         let by_place = matches!(asked.places, TabPlaces::At(_));
+        // A ball is narrower where the stock ends.
+        let radius = self.work.tool.radius_at(self.work.base - self.work.floor);
         let nothing_loose: Vec<bool> =
-            routes.iter().map(|route| !by_place && clears_its_inside(&route.path, self.work.tool.radius())).collect();
+            routes.iter().map(|route| !by_place && clears_its_inside(&route.path, radius)).collect();
         let cleared = nothing_loose.iter().filter(|is| **is).count();
         self.notices.extend((cleared > 0).then_some(Notice::NothingToHold(cleared)));
         let (each, astray) = shared_out(asked, &routes, ASTRAY * self.work.tool.diameter);
@@ -254,6 +260,7 @@ impl<'a> Cuts<'a> {
             tool_diameter: tool.diameter,
             seam: tool.radius() + beside,
             allowance: self.work.cutting.allowance,
+            waste: self.work.part_side().opposite(),
             strands,
         }
     }

@@ -4,11 +4,11 @@
 //! centre keeps its own radius from that closing, it only cuts air. The closings are exact, and where neither of them
 //! differs from the drawing the paths touch the larger closing to the last digits: nothing is cut twice but a short overlap.
 
-use super::{Geometry, Keep, Level, OperationError, Planned, Work};
+use super::{Geometry, Keep, Larger, Level, OperationError, Planned, Work};
 use crate::cam::nearest_next::nearest_next;
 use crate::cam::solid::Solid;
 use crate::cam::walk::Walk;
-use crate::cam::{Move, MoveKind, Remainder, Side};
+use crate::cam::{Move, MoveKind, Remainder, Side, close_for_path};
 use crate::plane::{Point, Segment};
 
 /// Less than this, in millimetres, is not cut again: what the arcs of programs are off.
@@ -26,12 +26,12 @@ const HALVINGS: usize = 10;
 /// Rings behind each other: the tools of a job differ by no more.
 const MOST_RINGS: usize = 200;
 
-/// `larger` is the radius of the other tool, path radius included; rings lie `stepover` apart.
+/// `larger` is the other tool; rings lie `stepover` apart.
 pub(super) fn plan(
     work: &Work,
     geometry: &Geometry,
     side: Side,
-    larger: f64,
+    larger: Larger,
     stepover: f64,
 ) -> Result<Planned, OperationError> {
     if geometry.area.is_empty() {
@@ -39,12 +39,17 @@ pub(super) fn plan(
     }
     let stays = side.kept_material(&geometry.area);
     let radius = work.tool.radius();
-    let wall = work.level(&stays, radius)?;
-    let left = Level::new(&stays, larger, 0.0, work.cutting.topology)?;
-    let left = side.solid(&left.closed);
+    let mut notices = Vec::new();
+    let wall = Level::beside_outlines(work, &stays, radius, &mut notices)?;
+    let Larger { radius: larger, path_radius, eases } = larger;
+    let left = close_for_path(&stays, larger, path_radius, eases, work.cutting.topology).region;
+    let left = side.solid(&left);
     let mut rings: Vec<Vec<Vec<Segment>>> = vec![stretches(work, &wall, &left, radius)];
     for k in 1..MOST_RINGS {
-        let Ok(level) = work.level(&stays, radius + k as f64 * stepover) else { break };
+        let Ok(level) = Level::new(&stays, radius + k as f64 * stepover, work.path_radius, work.cutting.topology)
+        else {
+            break;
+        };
         let found = stretches(work, &level, &left, radius);
         if found.is_empty() {
             break;
@@ -79,7 +84,7 @@ pub(super) fn plan(
     Ok(Planned {
         toolpath: work.toolpath(moves, count),
         keep: Some(keep),
-        notices: Vec::new(),
+        notices,
         tabs: Vec::new(),
         holes: Vec::new(),
         contradictions: wall.contradictions,

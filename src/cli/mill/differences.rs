@@ -179,6 +179,15 @@ impl Cut {
                         String::new(),
                     );
                 }
+                Notice::PathRadiusEased(count, least) => {
+                    return self.row(
+                        "path radius",
+                        None,
+                        format!("down to {least:.3} mm on {count} outlines"),
+                        "more would lose outlines that the tool can cut".to_owned(),
+                        "a smaller tool, or a lower feed".to_owned(),
+                    );
+                }
                 Notice::LeadSkipped(p) => (
                     p,
                     "lead",

@@ -4,12 +4,13 @@ use std::mem::{Discriminant, discriminant};
 
 use super::setup::at;
 use crate::cam::Notice;
+use crate::cli::report::eased;
 
 /// Of notices of one kind so many are told one by one.
 pub(super) const MOST_ALIKE: usize = 4;
 
-/// What went wrong, and what is only to be known; of many alike the first ones and how many more there are.
-pub(super) fn notice_words(notices: &[Notice]) -> [Vec<String>; 2] {
+/// What went wrong, and what is only to be known; of many alike the first `most` and how many more there are.
+pub(super) fn notice_words(notices: &[Notice], most: usize) -> [Vec<String>; 2] {
     let mut kinds: Vec<(Discriminant<Notice>, Vec<&Notice>)> = Vec::new();
     for notice in notices {
         let kind = discriminant(notice);
@@ -20,11 +21,11 @@ pub(super) fn notice_words(notices: &[Notice]) -> [Vec<String>; 2] {
     }
     let mut words = [Vec::new(), Vec::new()];
     for (_, alike) in kinds {
-        let told = if alike.len() > MOST_ALIKE + 1 { MOST_ALIKE } else { alike.len() };
+        let told = if alike.len() > most.saturating_add(1) { most } else { alike.len() };
         let list = &mut words[usize::from(!is_failure(alike[0]))];
         list.extend(alike[..told].iter().map(|notice| sentence(notice)));
         if told < alike.len() {
-            list.push(format!("the same at {} more places", alike.len() - told));
+            list.push(format!("{} more of this kind (--format json lists all)", alike.len() - told));
         }
     }
     words
@@ -89,6 +90,7 @@ fn sentence(notice: &Notice) -> String {
             "no tabs {}: the tool clears all inside, and nothing comes loose",
             if count == 1 { "on one outline".to_owned() } else { format!("on {count} outlines") }
         ),
+        Notice::PathRadiusEased(count, least) => eased(count, least),
     }
 }
 
@@ -102,11 +104,12 @@ mod tests {
         let dropped = |k: usize| Notice::TabsDropped(Point::new(k as f64, 0.0), 1);
         let mut notices: Vec<Notice> = (0..200).map(dropped).collect();
         notices.insert(3, Notice::NothingToHold(1));
-        let [failures, notes] = notice_words(&notices);
+        let [failures, notes] = notice_words(&notices, MOST_ALIKE);
         assert_eq!(failures.len(), MOST_ALIKE + 1);
-        assert_eq!(failures[MOST_ALIKE], "the same at 196 more places");
+        assert_eq!(failures[MOST_ALIKE], "196 more of this kind (--format json lists all)");
         assert_eq!(notes.len(), 1);
+        assert_eq!(notice_words(&notices, usize::MAX)[0].len(), 200, "as for programs that read the report");
         // One more takes no more room than to say so.
-        assert_eq!(notice_words(&notices[..MOST_ALIKE + 2])[0].len(), MOST_ALIKE + 1);
+        assert_eq!(notice_words(&notices[..MOST_ALIKE + 2], MOST_ALIKE)[0].len(), MOST_ALIKE + 1);
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn sharp_path(settings: &Settings, part: &Region) -> Option<SharpPath
     }
     let sharp = Job { path_radius: PathRadius::Length(0.0), ..job.clone() };
     let sharp = Settings { job: sharp, dialect: settings.dialect.clone(), ..*settings };
-    let (_, toolpath, _) = shape(&sharp, part).ok()?;
+    let toolpath = shape(&sharp, part).ok()?.toolpath;
     let text = gcode::write(&toolpath, &[], &settings.dialect, settings.options).ok()?;
     let program = gcode::read_as(&text, &settings.dialect).ok()?;
     let program = with_heights(program, &settings.dialect, job.safe_height, job.stock_top - job.depth);

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use serde_json::json;
 
-use super::notice_words::notice_words;
+use super::notice_words::{MOST_ALIKE, notice_words};
 use super::setup::{Done, Written};
 use super::travel;
-use crate::cam::{OperationKind, Setup, Side, TimeSaved, Uncut, estimate, uncut};
+use crate::cam::{LoosePiece, OperationKind, Setup, Side, TabPlaces, Tabs, TimeSaved, Uncut, estimate, uncut};
 use crate::cli::report::{GOUGE_LIMIT, Verdict, describe, gouges, older_one};
 use crate::cli::time_words::{minutes, sharp, time_saved};
 use crate::gcode::{Dialect, MachineKind, Severity};
@@ -53,7 +53,7 @@ impl SetupReport<'_> {
     pub(super) fn failures(&self) -> Vec<String> {
         let mut failures = Vec::new();
         for done in self.done {
-            let words = words(done, self.setup, self.accept_losses).failures.into_iter();
+            let words = words(done, self.setup, self.accept_losses, MOST_ALIKE).failures.into_iter();
             failures.extend(words.map(|f| format!("{}: {f}", done.check.label)));
         }
         failures.extend(self.job_failures().cloned());
@@ -75,7 +75,7 @@ impl SetupReport<'_> {
 
     /// Whether an operation does what was asked.
     pub(super) fn is_good(&self, done: &Done) -> bool {
-        words(done, self.setup, self.accept_losses).failures.is_empty()
+        words(done, self.setup, self.accept_losses, MOST_ALIKE).failures.is_empty()
     }
 
     /// What is unusual about the job, in sentences.
@@ -104,8 +104,11 @@ impl SetupReport<'_> {
         for done in self.done {
             let check = &done.check;
             let gouge = check.gouge.map_or("-".to_owned(), |g| format!("{:.4}", g.depth_mm.max(0.0)));
-            let verdict =
-                if words(done, self.setup, self.accept_losses).failures.is_empty() { "good" } else { "FAILED" };
+            let verdict = if words(done, self.setup, self.accept_losses, MOST_ALIKE).failures.is_empty() {
+                "good"
+            } else {
+                "FAILED"
+            };
             let label: String = check.label.chars().take(23).collect();
             // Of holes and of what is as deep as it is wide no passes are asked for.
             let passes = match check.passes {
@@ -131,7 +134,7 @@ impl SetupReport<'_> {
             let _ = writeln!(text, "{:<24}{}", "time saved", time_saved(saved));
         }
         for done in self.done {
-            let words = words(done, self.setup, self.accept_losses);
+            let words = words(done, self.setup, self.accept_losses, MOST_ALIKE);
             for failure in words.failures {
                 let _ = writeln!(text, "FAILED  {}: {failure}", done.check.label);
             }
@@ -168,7 +171,7 @@ impl SetupReport<'_> {
             .done
             .iter()
             .map(|done| {
-                let words = words(done, self.setup, self.accept_losses);
+                let words = words(done, self.setup, self.accept_losses, usize::MAX);
                 json!({
                     "check": done.check,
                     "line": done.operation.line,
@@ -207,7 +210,8 @@ impl SetupReport<'_> {
     }
 }
 
-fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
+/// What is to be told of an operation; of many words alike the first `most`.
+fn words(done: &Done, setup: &Setup, accept_losses: bool, most: usize) -> Words {
     let (check, planned) = (&done.check, &done.planned);
     let mut failures = Vec::new();
     let mut notes = Vec::new();
@@ -273,11 +277,32 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool) -> Words {
             place.y_mm
         ));
     }
-    let [wrong, told] = notice_words(&planned.notices);
+    let all_held = !matches!(&done.operation.cutting.tabs, Some(Tabs { places: TabPlaces::At(_), .. }));
+    let loose = loose_words(&check.loose, most);
+    if all_held {
+        failures.extend(loose)
+    } else {
+        notes.extend(loose)
+    }
+    let [wrong, told] = notice_words(&planned.notices, most);
     failures.extend(wrong);
     notes.extend(told);
     notes.extend(loose_part(done, setup));
     Words { failures, notes }
+}
+
+/// What comes loose between tabs.
+fn loose_words(pieces: &[LoosePiece], most: usize) -> Vec<String> {
+    let told = if pieces.len() > most.saturating_add(1) { most } else { pieces.len() };
+    let sentence = |piece: &LoosePiece| {
+        format!(
+            "a piece of {:.2} mm² around ({:.3}, {:.3}) comes loose, no tab holds it: ask for more tabs, or for them at places \
+             beside it",
+            piece.area_mm2, piece.x_mm, piece.y_mm
+        )
+    };
+    let more = (told < pieces.len()).then(|| format!("{} more such pieces", pieces.len() - told));
+    pieces[..told].iter().map(sentence).chain(more).collect()
 }
 
 /// What a pocket leaves standing in its corners, where no operation before it has cut.

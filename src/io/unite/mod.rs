@@ -14,7 +14,7 @@ mod nearby;
 mod overlay;
 mod restore;
 
-use crate::plane::{Bounds, Ring, groups_apart};
+use crate::plane::{Bounds, Ring, any_meet};
 
 use nearby::Surroundings;
 
@@ -55,7 +55,7 @@ pub(super) fn united(mut areas: Vec<Vec<Ring>>) -> Vec<Ring> {
     let extent = all.width().max(all.height());
     let mut rings = areas.concat();
     let nearby: Vec<Bounds> = boxes.iter().map(|b| b.inflated(meet::TOUCH * extent)).collect();
-    if !extent.is_finite() || groups_apart(&nearby).len() < boxes.len() {
+    if !extent.is_finite() || any_meet(&nearby) {
         return resolve(rings, Rule::AtLeast(1));
     }
     rings.retain(|ring| ring.area().abs() > SPECK * extent * extent);
