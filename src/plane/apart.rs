@@ -21,7 +21,7 @@ const MOST_SWEEPS: usize = 16;
 
 /// The boxes in groups such that the boxes around any two groups share no point: what lies between the groups hangs together.
 /// Groups are in the order of their first members, members in the order given, and there are as many as there can be, but for
-/// boxes so contrived that the groups have not settled after [`MOST_SWEEPS`].
+/// boxes so contrived that the groups have not settled after `MOST_SWEEPS` sweeps: then they are one.
 ///
 /// A sweep from the left; groups that have grown into each other are found by the next one. Empty boxes are left out.
 pub fn groups_apart(boxes: &[Bounds]) -> Vec<Vec<usize>> {

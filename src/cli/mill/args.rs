@@ -26,7 +26,7 @@ pub(in crate::cli) struct MillArgs {
     /// Print a commented job file for the drawing, and do nothing else
     #[arg(long, conflicts_with_all = ["job", "output"])]
     pub(super) init: bool,
-    /// Exit with 0 although features of the drawing are lost
+    /// Exit with 0 although features of the drawing are lost, or pieces come loose
     #[arg(long)]
     pub(super) accept_losses: bool,
     /// Make no picture

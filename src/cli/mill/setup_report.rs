@@ -277,12 +277,13 @@ fn words(done: &Done, setup: &Setup, accept_losses: bool, most: usize) -> Words 
             place.y_mm
         ));
     }
-    let all_held = !matches!(&done.operation.cutting.tabs, Some(Tabs { places: TabPlaces::At(_), .. }));
+    // Tabs that have places may be meant for some pieces alone.
+    let has_places = matches!(&done.operation.cutting.tabs, Some(Tabs { places: TabPlaces::At(_), .. }));
     let loose = loose_words(&check.loose, most);
-    if all_held {
-        failures.extend(loose)
-    } else {
+    if has_places || accept_losses {
         notes.extend(loose)
+    } else {
+        failures.extend(loose)
     }
     let [wrong, told] = notice_words(&planned.notices, most);
     failures.extend(wrong);
@@ -296,8 +297,8 @@ fn loose_words(pieces: &[LoosePiece], most: usize) -> Vec<String> {
     let told = if pieces.len() > most.saturating_add(1) { most } else { pieces.len() };
     let sentence = |piece: &LoosePiece| {
         format!(
-            "a piece of {:.2} mm² around ({:.3}, {:.3}) comes loose, no tab holds it: ask for more tabs, or for them at places \
-             beside it",
+            "a piece of {:.2} mm² around ({:.3}, {:.3}) comes loose, no tab holds it: ask for more tabs, or for some at places \
+             beside it; --accept-losses where something else holds it",
             piece.area_mm2, piece.x_mm, piece.y_mm
         )
     };
