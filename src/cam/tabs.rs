@@ -31,6 +31,9 @@ const BESIDE: f64 = 0.02;
 /// there are only tight arcs.
 const NECK: [f64; 2] = [0.25, 0.1];
 
+/// Steps in which tabs beside another path are made longer, in widths of the tab.
+const LONGER: f64 = 0.05;
+
 /// What is around the tabs of an operation.
 pub(super) struct Ground<'a> {
     /// z of what they stand on.
@@ -77,13 +80,20 @@ impl Ground<'_> {
 /// Rounding of lengths, relative.
 const ROUNDING: f64 = 1e-9;
 
+/// A tab on a path.
+#[derive(Clone, Copy, Debug)]
+struct Tab {
+    /// Where along the path its middle is, in [0, length).
+    middle: f64,
+    /// Half the length over which the tool stays up.
+    plateau: f64,
+}
+
 /// The tabs of one path.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TabLine {
-    /// Where along the path their middles are, in [0, length).
-    middles: Vec<f64>,
-    /// Half the length over which the tool stays up.
-    plateau: f64,
+    /// In the order of the path.
+    tabs: Vec<Tab>,
     /// z of the tool over a tab.
     top: f64,
     /// How far the tool goes down from there to the floor of the cut.
@@ -108,20 +118,20 @@ pub(super) struct Placed {
 impl TabLine {
     /// How many there are.
     pub(super) fn count(&self) -> usize {
-        self.middles.len()
+        self.tabs.len()
     }
 
     /// The middles of the tabs on the path.
     pub(super) fn points(&self, walk: &Walk) -> Vec<Point> {
-        self.middles.iter().map(|&way| walk.point_at(way)).collect()
+        self.tabs.iter().map(|tab| walk.point_at(tab.middle)).collect()
     }
 
     /// The lowest that the tool may be at `way`, which may be several times around.
     pub(super) fn lowest(&self, way: f64) -> f64 {
         let mut lowest = f64::NEG_INFINITY;
-        for middle in &self.middles {
-            let apart = (way - middle).rem_euclid(self.length);
-            let distance = apart.min(self.length - apart) - self.plateau;
+        for tab in &self.tabs {
+            let apart = (way - tab.middle).rem_euclid(self.length);
+            let distance = apart.min(self.length - apart) - tab.plateau;
             let flank = FLANK * self.fall;
             if distance <= 0.0 {
                 return self.top;
@@ -136,16 +146,16 @@ impl TabLine {
 
     /// The first place from `way` on that is at least `margin` off every tab; none where the tabs leave no such place.
     pub(super) fn clear_from(&self, way: f64, margin: f64) -> Option<f64> {
-        let reach = self.plateau + FLANK * self.fall + margin;
-        let apart = |way: f64, middle: f64| {
-            let ahead = (middle - way).rem_euclid(self.length);
+        let reach = |tab: &Tab| tab.plateau + FLANK * self.fall + margin;
+        let apart = |way: f64, tab: &Tab| {
+            let ahead = (tab.middle - way).rem_euclid(self.length);
             ahead.min(self.length - ahead)
         };
         let mut way = way;
         // Every tab pushes the place on at most once.
-        for _ in 0..=self.middles.len() {
-            match self.middles.iter().find(|&&m| apart(way, m) < reach * (1.0 - ROUNDING)) {
-                Some(middle) => way = (middle + reach).rem_euclid(self.length),
+        for _ in 0..=self.tabs.len() {
+            match self.tabs.iter().find(|tab| apart(way, tab) < reach(tab) * (1.0 - ROUNDING)) {
+                Some(tab) => way = (tab.middle + reach(tab)).rem_euclid(self.length),
                 None => return Some(way),
             }
         }
@@ -156,10 +166,10 @@ impl TabLine {
     pub(super) fn bends(&self, from: f64, length: f64) -> Vec<f64> {
         let mut bends = Vec::new();
         let flank = FLANK * self.fall;
-        for middle in &self.middles {
-            let offsets = (0..=FLANK_PIECES).map(|k| self.plateau + flank * (k as f64 / FLANK_PIECES as f64));
+        for tab in &self.tabs {
+            let offsets = (0..=FLANK_PIECES).map(|k| tab.plateau + flank * (k as f64 / FLANK_PIECES as f64));
             for offset in offsets.flat_map(|o| [-o, o]) {
-                let mut way = (middle + offset - from).rem_euclid(self.length);
+                let mut way = (tab.middle + offset - from).rem_euclid(self.length);
                 while way < length {
                     bends.push(from + way);
                     way += self.length;
@@ -183,7 +193,7 @@ impl TabLine {
             }
         };
         let mut placed = Placed { asked: wanted.len(), line: TabLine::empty(tabs, walk, ground), ..Placed::default() };
-        let half = placed.line.plateau;
+        let half = ground.plateau(tabs);
         let bounds = walk.segments().iter().fold(Bounds::EMPTY, |b, s| b.union(s.bounds()));
         // The roughing takes of what lies between two paths on both sides.
         let hold = HOLD * ground.tool_diameter + 2.0 * ground.allowance;
@@ -197,14 +207,15 @@ impl TabLine {
                     apart.min(length - apart) >= reach + other
                 };
                 clear(0.0, ground.seam)
-                    && placed.line.middles.iter().all(|&m| clear(m, reach))
+                    && placed.line.tabs.iter().all(|tab| clear(tab.middle, reach))
                     && !arcs.unwrap_or_default().iter().any(|&(a, b)| overlaps(at, half, a, b, length))
                     && !strands.pass(walk.point_at(at), path, at, hold)
                     && ground.holds(walk, at, &strands)
-                    && stays(
+                    && leaves(
                         walk,
                         at,
                         half,
+                        walk.point_at(at),
                         0.5 * ground.tool_diameter + ground.allowance + NECK[usize::from(arcs.is_none())] * tabs.width,
                     )
             };
@@ -218,41 +229,47 @@ impl TabLine {
             let off_arcs = nearest_free(Some(&round)).or_else(|| nearest_free(Some(&tight)));
             placed.on_arcs += usize::from(off_arcs.is_none() && nearest_free(None).is_some());
             let Some(at) = off_arcs.or_else(|| nearest_free(None)) else { continue };
-            placed.line.middles.push(at);
+            placed.line.tabs.push(Tab { middle: at, plateau: half });
             let [asked, got] = [walk.point_at(way), walk.point_at(at)];
             if matches!(tabs.places, TabPlaces::At(_)) && (asked - got).norm() > tabs.width {
                 placed.moved.push([asked, got]);
             }
         }
-        placed.line.middles.sort_by(f64::total_cmp);
+        placed.line.sort();
         placed
     }
 
-    /// The tabs of a path beside another one, whose tabs are at `points`.
+    /// The tabs of a path beside another one, whose tabs are at `points`: the tool stays up until it is as far from their
+    /// middles as it has to be. Spikes into corners take up some of the way beside a tab, and are not as long on both paths.
     pub(super) fn beside(tabs: &Tabs, walk: &Walk, points: &[Point], ground: &Ground) -> TabLine {
         let mut line = TabLine::empty(tabs, walk, ground);
-        line.middles = points.iter().filter_map(|&p| walk.nearest_way(p).0).collect();
-        line.middles.sort_by(f64::total_cmp);
+        let away = 0.5 * ground.tool_diameter + NECK[1] * tabs.width;
+        let [half, most] = [ground.plateau(tabs), 0.5 * walk.length()];
+        let tab = |p: Point| {
+            let middle = walk.nearest_way(p).0?;
+            let longer = (0..).map(|k| half + f64::from(k) * LONGER * tabs.width).take_while(|half| *half < most);
+            let plateau = longer.into_iter().find(|&half| leaves(walk, middle, half, p, away)).unwrap_or(most);
+            Some(Tab { middle, plateau })
+        };
+        line.tabs = points.iter().filter_map(|&p| tab(p)).collect();
+        line.sort();
         line
     }
 
+    fn sort(&mut self) {
+        self.tabs.sort_by(|a, b| a.middle.total_cmp(&b.middle));
+    }
+
     fn empty(tabs: &Tabs, walk: &Walk, ground: &Ground) -> TabLine {
-        TabLine {
-            middles: Vec::new(),
-            plateau: ground.plateau(tabs),
-            top: ground.base + tabs.height,
-            fall: ground.fall(tabs),
-            length: walk.length(),
-        }
+        TabLine { tabs: Vec::new(), top: ground.base + tabs.height, fall: ground.fall(tabs), length: walk.length() }
     }
 }
 
-/// Whether the path, from `half` behind `at` on around to `half` before it, keeps `distance` from the point there.
-fn stays(walk: &Walk, at: f64, half: f64, distance: f64) -> bool {
+/// Whether the path, from `half` behind `at` on around to `half` before it, keeps `distance` from a point.
+fn leaves(walk: &Walk, at: f64, half: f64, point: Point, distance: f64) -> bool {
     let low = walk.length() - 2.0 * half;
-    let middle = walk.point_at(at);
     let start = (at + half).rem_euclid(walk.length());
-    low > 0.0 && !walk.stretch(start, low).iter().any(|s| s.is_nearer(middle, distance))
+    low > 0.0 && !walk.stretch(start, low).iter().any(|s| s.is_nearer(point, distance))
 }
 
 /// `count` places, the first half a step from the start.
@@ -332,13 +349,49 @@ mod tests {
     }
 
     #[test]
+    fn spikes_into_corners_take_nothing_of_a_tab_that_stands_on_a_path_beside() {
+        // The tab stands at (50, 0); two spikes of 2 mm beside it take 8 of the 9 mm for which the tool would stay up.
+        let corners = [
+            (0.0, 1.0),
+            (48.8, 1.0),
+            (48.8, 3.0),
+            (48.8, 1.0),
+            (51.2, 1.0),
+            (51.2, 3.0),
+            (51.2, 1.0),
+            (100.0, 1.0),
+            (100.0, 100.0),
+            (0.0, 100.0),
+        ];
+        let walk = Walk::new(Ring::polygon(corners.map(|(x, y)| Point::new(x, y))).segments().collect());
+        let strands = Strands::default();
+        let ground = Ground {
+            base: -6.0,
+            floor: -6.0,
+            tool_diameter: 3.0,
+            allowance: 1.0,
+            waste: Turn::Right,
+            seam: 0.0,
+            strands: &strands,
+        };
+        let tab = Point::new(50.0, 0.0);
+        let line = TabLine::beside(&tabs(TabPlaces::Count(1)), &walk, &[tab], &ground);
+        for way in (0..4000).map(|k| walk.length() * f64::from(k) / 4000.0) {
+            let distance = (walk.point_at(way) - tab).norm();
+            assert!(line.lowest(way) == -4.0 || distance > 1.5 + 0.1 * 6.0, "{way}: {distance}");
+        }
+        // And no longer than that.
+        assert!(line.tabs[0].plateau < 4.5 + 8.0, "{:?}", line.tabs);
+    }
+
+    #[test]
     fn tabs_keep_off_seams_tight_arcs_and_each_other() {
         let near_seam = tabs(TabPlaces::At(vec![[1.0, 0.0], [2.0, 0.0]]));
         let placed = place(&near_seam, &square(), 3.0, 5.0);
         assert_eq!(placed.line.count(), 2);
         let points = placed.line.points(&square());
         assert!(points[0].x >= 12.4, "{points:?}");
-        assert!((placed.line.middles[1] - placed.line.middles[0]).abs() >= 15.0);
+        assert!((placed.line.tabs[1].middle - placed.line.tabs[0].middle).abs() >= 15.0);
         // A circle of 4 mm with tabs of 6 mm: nowhere room for six.
         let circle = Walk::new(Ring::circle(Point::origin(), 2.0).segments().collect());
         let placed = place(&tabs(TabPlaces::Count(6)), &circle, 3.0, 0.0);
